@@ -1,0 +1,26 @@
+# Debian 12 packages; docs/building.md names them. Heavy ones stay behind the target that needs them.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(TBB REQUIRED)
+
+# SuiteSparse 5 in Debian has no CMake package of its own.
+find_path(CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+add_library(cholmod INTERFACE)
+target_include_directories(cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE})
+target_link_libraries(cholmod INTERFACE ${CHOLMOD_LIBRARY})
+
+find_path(MESHOPTIMIZER_INCLUDE meshoptimizer.h REQUIRED)
+find_library(MESHOPTIMIZER_LIBRARY meshoptimizer REQUIRED)
+add_library(meshoptimizer INTERFACE)
+target_include_directories(meshoptimizer SYSTEM INTERFACE ${MESHOPTIMIZER_INCLUDE})
+target_link_libraries(meshoptimizer INTERFACE ${MESHOPTIMIZER_LIBRARY})
+
+find_path(DRACO_INCLUDE draco/compression/decode.h REQUIRED)
+find_library(DRACO_LIBRARY draco REQUIRED)
+add_library(draco INTERFACE)
+add_library(draco::draco ALIAS draco)
+target_include_directories(draco SYSTEM INTERFACE ${DRACO_INCLUDE})
+target_link_libraries(draco INTERFACE ${DRACO_LIBRARY})

@@ -1,0 +1,20 @@
+# Compiler flags that every target of ours shares.
+add_library(mien_flags INTERFACE)
+target_compile_options(mien_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+# The same bytes from every compiler and machine: a product and a sum are never fused behind our back.
+target_compile_options(mien_flags INTERFACE -ffp-contract=off)
+if(MIEN_WARNINGS_AS_ERRORS)
+  target_compile_options(mien_flags INTERFACE -Werror)
+endif()
+if(MIEN_SANITIZE)
+  target_compile_options(mien_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                              -fno-omit-frame-pointer)
+  target_link_options(mien_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(MIEN_FUZZ)
+  target_compile_options(mien_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+if(MIEN_COVERAGE)
+  target_compile_options(mien_flags INTERFACE --coverage)
+  target_link_options(mien_flags INTERFACE --coverage)
+endif()

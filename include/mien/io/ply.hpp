@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "mien/mesh.hpp"
+
+namespace mien {
+
+/// Stanford PLY: text and binary, both byte orders; properties other than x, y, z and the face list are skipped.
+/// Throws Error naming the line or byte, what was expected and what was found.
+Mesh parse_ply(std::span<const std::byte> bytes);
+
+}  // namespace mien

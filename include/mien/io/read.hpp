@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mien/face.hpp"
+#include "mien/io/gltf.hpp"
+#include "mien/io/points.hpp"
+#include "mien/take.hpp"
+
+namespace mien {
+
+/// Reads a head by its extension: .glb .gltf .obj .off .ply. Throws Error whose sentence starts with the file's name;
+/// Kind::access when the file cannot be read.
+Mesh read_mesh(const std::filesystem::path& path);
+
+/// Reads a take by its extension: .trc .csv.
+Take read_take(const std::filesystem::path& path);
+
+/// Reads feature points for a mesh.
+PointsFile read_points(const std::filesystem::path& path, const Mesh& mesh);
+
+/// Reads a head with its feature points.
+Face read_face(const std::filesystem::path& head, const std::filesystem::path& points);
+
+/// Reads a marker map for `rename_points`: .csv or .json.
+std::vector<Rename> read_marker_map(const std::filesystem::path& path);
+
+/// Reads a rig file written by mien.
+RigFile read_rig(const std::filesystem::path& path);
+
+}  // namespace mien
