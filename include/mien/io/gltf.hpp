@@ -40,6 +40,9 @@ std::vector<std::byte> format_glb(const Mesh& mesh, const MorphTrack& track);
 /// weights and feature points (docs/rig-file.md).
 std::vector<std::byte> format_rig(const Mesh& mesh, const Rig& rig, const Skin& skin);
 
+/// Whether the document that a mesh came from holds a rig of ours.
+bool is_rig(const Mesh& mesh);
+
 /// Reads a rig file back: the neutral mesh and the exact rig. Throws Error if the GLB holds no MIEN_rig extension.
 struct RigFile {
     Mesh mesh;
