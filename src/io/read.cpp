@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// Files by their extension. The extension alone chooses the parser: a guess from the first bytes would be a second way
+// that could disagree with the first.
+
+#include "mien/io/read.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "io/text.hpp"
+
+#include "mien/error.hpp"
+#include "mien/io/marker_map.hpp"
+#include "mien/io/obj.hpp"
+#include "mien/io/off.hpp"
+#include "mien/io/ply.hpp"
+#include "mien/io/take_csv.hpp"
+#include "mien/io/trc.hpp"
+
+namespace mien {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Bytes = std::vector<std::byte>;
+
+[[noreturn]] void cannot_read(const fs::path& path, std::string_view why) {
+    throw Error(fmt::format("{}: cannot read: {}", path.string(), why), Error::Kind::access);
+}
+
+// By chunks and not by a size asked for first, so that pipes can be read as well.
+Bytes read_bytes(const fs::path& path) {
+    if (fs::is_directory(path)) cannot_read(path, "it is a folder");
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!file) cannot_read(path, std::generic_category().message(errno));
+    constexpr std::size_t chunk = std::size_t{1} << 20;
+    Bytes bytes;
+    for (std::size_t got = chunk; got == chunk;) {
+        const std::size_t size = bytes.size();
+        bytes.resize(size + chunk);
+        got = std::fread(bytes.data() + size, 1, chunk, file.get());
+        bytes.resize(size + got);
+    }
+    if (std::ferror(file.get()) != 0) cannot_read(path, std::generic_category().message(errno));
+    bytes.shrink_to_fit();
+    return bytes;
+}
+
+// Reads the file and parses it, with its name before whatever the parser has to say.
+template <class Parse>
+auto parsed(const fs::path& path, const Parse& parse) {
+    const Bytes bytes = read_bytes(path);
+    try {
+        return parse(std::span<const std::byte>(bytes));
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", path.string(), error.what()), error.kind());
+    }
+}
+
+bool has_extension(const fs::path& path, std::string_view extension) {
+    return equal_but_case(path.extension().string(), extension);
+}
+
+[[noreturn]] void unknown_extension(const fs::path& path, std::string_view known) {
+    throw Error(fmt::format("{}: expected a file that ends in {}, found {}", path.string(), known,
+                            shown(path.extension().string())));
+}
+
+// Whether `path` lies inside `folder`; both are real paths, links followed.
+bool is_inside(const fs::path& path, const fs::path& folder) {
+    const fs::path relative = path.lexically_relative(folder);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+// The files beside a .gltf. The uri comes from a stranger: what it leads to, links followed, has to lie in the folder.
+Bytes fetch_beside(const fs::path& gltf, std::string_view uri) {
+    std::error_code error;
+    const fs::path folder = fs::canonical(gltf.has_parent_path() ? gltf.parent_path() : fs::path("."), error);
+    const fs::path target = error ? fs::path() : fs::canonical(folder / fs::path(uri), error);
+    if (error) throw Error(fmt::format("uri {}: expected a file beside the .gltf, found none", shown(uri)));
+    if (!is_inside(target, folder) || !fs::is_regular_file(target))
+        throw Error(
+            fmt::format("uri {}: expected a file inside the folder of the .gltf, found another place", shown(uri)));
+    return read_bytes(target);
+}
+
+}  // namespace
+
+Mesh read_mesh(const fs::path& path) {
+    if (has_extension(path, ".obj")) return parsed(path, parse_obj);
+    if (has_extension(path, ".off")) return parsed(path, parse_off);
+    if (has_extension(path, ".ply")) return parsed(path, parse_ply);
+    if (!has_extension(path, ".glb") && !has_extension(path, ".gltf"))
+        unknown_extension(path, ".glb, .gltf, .obj, .off or .ply");
+    const Fetch fetch = [&](std::string_view uri) { return fetch_beside(path, uri); };
+    return parsed(path, [&](std::span<const std::byte> bytes) { return parse_gltf(bytes, fetch); });
+}
+
+Take read_take(const fs::path& path) {
+    if (has_extension(path, ".trc")) return parsed(path, parse_trc);
+    if (has_extension(path, ".csv")) return parsed(path, parse_take_csv);
+    unknown_extension(path, ".trc or .csv");
+}
+
+PointsFile read_points(const fs::path& path, const Mesh& mesh) {
+    return parsed(path, [&](std::span<const std::byte> bytes) { return parse_points(bytes, mesh); });
+}
+
+Face read_face(const fs::path& head, const fs::path& points) {
+    Mesh mesh = read_mesh(head);
+    std::vector<FeaturePoint> on_mesh = read_points(points, mesh).points;
+    return {std::move(mesh), std::move(on_mesh)};
+}
+
+std::vector<Rename> read_marker_map(const fs::path& path) {
+    if (!has_extension(path, ".csv") && !has_extension(path, ".json")) unknown_extension(path, ".csv or .json");
+    return parsed(path, parse_marker_map);
+}
+
+RigFile read_rig(const fs::path& path) {
+    if (!has_extension(path, ".glb")) unknown_extension(path, ".glb");
+    return parsed(path, parse_rig);
+}
+
+}  // namespace mien

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// Atomic writing: everything goes to a temporary name beside the target, is forced to the disk, and is renamed at the
+// end, so a reader finds the old content or the new and never a part. Without `overwrite` the rename itself refuses a
+// target that came to be in the meantime (renameat2 of Linux; elsewhere the check beforehand has to do).
+
+#include "mien/io/write.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+
+#include "io/text.hpp"
+
+#include "mien/error.hpp"
+#include "mien/io/point_cache.hpp"
+#include "mien/io/take_csv.hpp"
+#include "mien/io/trc.hpp"
+
+namespace mien {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void cannot_write(const fs::path& path, std::string_view why) {
+    throw Error(fmt::format("{}: cannot write: {}", path.string(), why), Error::Kind::access);
+}
+
+[[noreturn]] void cannot_write(const fs::path& path, int error) {
+    cannot_write(path, std::generic_category().message(error));
+}
+
+bool exists(const fs::path& path) {
+    std::error_code error;
+    return fs::exists(fs::symlink_status(path, error));
+}
+
+void refuse_existing(const fs::path& path, const WriteOptions& options) {
+    if (!options.overwrite && exists(path))
+        cannot_write(path, "it is there already; overwriting it has to be asked for");
+}
+
+// A name beside the target that no other file has; gone with this object unless it was moved to its target.
+class Temporary {
+public:
+    explicit Temporary(const fs::path& target) : target_(target), path_(free_name(target)) {}
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    ~Temporary() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+    void move_to_target(const WriteOptions& options) const {
+        if (options.overwrite) {
+            if (std::rename(path_.c_str(), target_.c_str()) != 0) cannot_write(target_, errno);
+            return;
+        }
+#ifdef RENAME_NOREPLACE
+        if (renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return;
+        if (errno != EINVAL && errno != ENOSYS) cannot_write(target_, errno);
+#endif
+        refuse_existing(target_, options);
+        if (std::rename(path_.c_str(), target_.c_str()) != 0) cannot_write(target_, errno);
+    }
+
+private:
+    static fs::path free_name(const fs::path& target) {
+        for (int n = 0;; ++n) {
+            fs::path name = target;
+            name += fmt::format(".part-{}-{}", getpid(), n);
+            if (!exists(name)) return name;
+        }
+    }
+
+    fs::path target_, path_;
+};
+
+// Forces a file or a folder to the disk.
+void synchronize(const fs::path& path, const fs::path& target) {
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) cannot_write(target, errno);
+    const int failed = fsync(file) != 0 ? errno : 0;
+    close(file);
+    if (failed != 0 && failed != EINVAL) cannot_write(target, failed);
+}
+
+// Lets `fill` write a new file at `path`; errors name the target that it is for.
+template <class Fill>
+void fill_file(const fs::path& path, const fs::path& target, const Fill& fill) {
+    errno = 0;
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    if (!out) cannot_write(target, errno);
+    fill(out);
+    out.close();
+    if (!out) cannot_write(target, errno != 0 ? errno : EIO);
+    synchronize(path, target);
+}
+
+template <class Fill>
+void write_by(const fs::path& path, const WriteOptions& options, const Fill& fill) {
+    refuse_existing(path, options);
+    if (fs::is_directory(path)) cannot_write(path, "it is a folder");
+    const Temporary temporary(path);
+    fill_file(temporary.path(), path, fill);
+    temporary.move_to_target(options);
+}
+
+bool has_extension(const fs::path& path, std::string_view extension) {
+    return equal_but_case(path.extension().string(), extension);
+}
+
+[[noreturn]] void unknown_extension(const fs::path& path, std::string_view known) {
+    throw Error(fmt::format("{}: expected an output that ends in {}, found {}", path.string(), known,
+                            shown(path.extension().string())));
+}
+
+// The sequence, telling how far it has come as its rows are asked for.
+MeshSequence watched(const MeshSequence& sequence, const WriteOptions& options) {
+    MeshSequence result = sequence;
+    if (!options.progress) return result;
+    result.positions = [&sequence, &options](std::size_t row, std::span<Vec3f> positions) {
+        sequence.positions(row, positions);
+        options.progress(row + 1, sequence.times.size());
+    };
+    return result;
+}
+
+// Numbered from 1 with equal width, so that listings are in order.
+std::string frame_name(std::size_t row) {
+    return fmt::format("frame_{:06}.obj", row + 1);
+}
+
+bool is_frame(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with("frame_") && name.ends_with(".obj");
+}
+
+// Only a folder that holds nothing but frames is replaced: a mistyped path must not cost a home directory.
+void refuse_other_folder(const fs::path& path) {
+    if (!exists(path)) return;
+    if (!fs::is_directory(path)) cannot_write(path, "it is a file; expected a folder of .obj frames or nothing");
+    const bool frames = std::all_of(fs::directory_iterator(path), fs::directory_iterator(),
+                                    [](const fs::directory_entry& entry) { return is_frame(entry.path()); });
+    if (!frames) cannot_write(path, "the folder holds other files than frame_*.obj");
+}
+
+void write_frames(const MeshSequence& sequence, const fs::path& folder, const fs::path& target) {
+    std::error_code error;
+    if (!fs::create_directory(folder, error)) cannot_write(target, error ? error.value() : EEXIST);
+    std::vector<Vec3f> positions(vertex_count(sequence.mesh));
+    for (std::size_t row = 0; row < sequence.times.size(); ++row) {
+        sequence.positions(row, positions);
+        fill_file(folder / frame_name(row), target,
+                  [&](std::ostream& out) { format_obj(sequence.mesh, positions, out); });
+    }
+    synchronize(folder, target);
+}
+
+// An old folder of frames steps aside and is removed at the end; a folder cannot be renamed over a full one.
+void write_folder(const MeshSequence& sequence, const fs::path& path, const WriteOptions& options) {
+    refuse_existing(path, options);
+    refuse_other_folder(path);
+    const Temporary temporary(path);
+    write_frames(sequence, temporary.path(), path);
+    if (!exists(path)) return temporary.move_to_target(options);
+    fs::path aside = temporary.path();
+    aside += "-old";
+    if (std::rename(path.c_str(), aside.c_str()) != 0) cannot_write(path, errno);
+    temporary.move_to_target(options);
+    std::error_code ignored;
+    fs::remove_all(aside, ignored);
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, std::span<const std::byte> bytes, const WriteOptions& options) {
+    write_by(path, options, [&](std::ostream& out) {
+        out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    });
+}
+
+void write(const Take& take, const fs::path& path, const WriteOptions& options) {
+    if (has_extension(path, ".csv")) return write_file(path, as_bytes(format_take_csv(take)), options);
+    if (has_extension(path, ".trc")) return write_file(path, as_bytes(format_trc(take)), options);
+    unknown_extension(path, ".csv or .trc");
+}
+
+void write(const MeshSequence& sequence, const fs::path& path, const WriteOptions& options) {
+    const MeshSequence rows = watched(sequence, options);
+    if (has_extension(path, ".mdd")) return write_by(path, options, [&](std::ostream& out) { format_mdd(rows, out); });
+    if (has_extension(path, ".pc2")) return write_by(path, options, [&](std::ostream& out) { format_pc2(rows, out); });
+    if (path.extension().empty()) return write_folder(rows, path, options);
+    unknown_extension(path, ".mdd, .pc2 or, for a folder of .obj, in no extension");
+}
+
+}  // namespace mien
