@@ -38,13 +38,13 @@ namespace fs = std::filesystem;
     cannot_write(path, std::generic_category().message(error));
 }
 
-bool exists(const fs::path& path) {
+bool is_there(const fs::path& path) {
     std::error_code error;
     return fs::exists(fs::symlink_status(path, error));
 }
 
 void refuse_existing(const fs::path& path, const WriteOptions& options) {
-    if (!options.overwrite && exists(path))
+    if (!options.overwrite && is_there(path))
         cannot_write(path, "it is there already; overwriting it has to be asked for");
 }
 
@@ -79,7 +79,7 @@ private:
         for (int n = 0;; ++n) {
             fs::path name = target;
             name += fmt::format(".part-{}-{}", getpid(), n);
-            if (!exists(name)) return name;
+            if (!is_there(name)) return name;
         }
     }
 
@@ -148,7 +148,7 @@ bool is_frame(const fs::path& path) {
 
 // Only a folder that holds nothing but frames is replaced: a mistyped path must not cost a home directory.
 void refuse_other_folder(const fs::path& path) {
-    if (!exists(path)) return;
+    if (!is_there(path)) return;
     if (!fs::is_directory(path)) cannot_write(path, "it is a file; expected a folder of .obj frames or nothing");
     const bool frames = std::all_of(fs::directory_iterator(path), fs::directory_iterator(),
                                     [](const fs::directory_entry& entry) { return is_frame(entry.path()); });
@@ -173,7 +173,7 @@ void write_folder(const MeshSequence& sequence, const fs::path& path, const Writ
     refuse_other_folder(path);
     const Temporary temporary(path);
     write_frames(sequence, temporary.path(), path);
-    if (!exists(path)) return temporary.move_to_target(options);
+    if (!is_there(path)) return temporary.move_to_target(options);
     fs::path aside = temporary.path();
     aside += "-old";
     if (std::rename(path.c_str(), aside.c_str()) != 0) cannot_write(path, errno);
