@@ -4,10 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace mien {
 
@@ -17,8 +16,8 @@ struct GltfDocument {
     std::vector<std::byte> binary;
 };
 
-/// Splits a GLB container into its JSON and BIN chunks. Throws Error naming the byte, expected and found: magic, version,
-/// lengths, chunk order, text that is no JSON, nesting deeper than 64.
+/// Splits a GLB container into its JSON and BIN chunks. Throws Error naming the byte, expected and found: magic,
+/// version, lengths, chunk order, text that is no JSON, nesting deeper than 64.
 GltfDocument parse_glb(std::span<const std::byte> bytes);
 
 /// Parses the text of a .gltf: the same checks for the JSON; `binary` stays empty.
