@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// The left half of the head as a coarse cage: a grid of 16 rows and 12 columns over face, skull and neck, in which the
+// eye, the mouth, the ear and the nostril are blocks of cells replaced by concentric loops.
+
+#include "head_cage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mien::samples {
+namespace {
+
+constexpr std::size_t columns = 12;
+constexpr std::size_t rows = 16;
+using Row = std::array<Vec3, columns>;
+
+// Columns: 0 midline, 1-2 nose, 3 inner orbit and corner of the mouth block, 4 pupil, 5 outer orbit, 6 temple and jaw,
+// 7-9 round the ear, 10 back, 11 midline at the back.
+// Rows 0 and 1 lie on the skull's superellipsoid.
+constexpr std::array<double, columns> skull_azimuth{0, 6, 13, 21, 32, 45, 63, 84, 102, 122, 150, 180};
+
+Vec3 on_skull(double azimuth_degrees, double y) {
+    constexpr Vec3 centre{0, 25, 2};
+    constexpr double width = 76.5, height = 86, depth = 94;
+    constexpr double n = 2.3, m = 2.15;
+    const double ring = std::pow(1 - std::pow((y - centre.y) / height, n), 1 / n);
+    const double t = azimuth_degrees * std::numbers::pi / 180;
+    const double s = std::sin(t), c = std::cos(t);
+    const double r = std::pow(std::pow(std::abs(s) / width, m) + std::pow(std::abs(c) / depth, m), -1 / m);
+    return {ring * r * s, y, centre.z + ring * r * c};
+}
+
+Row skull_row(double y_front, double y_back) {
+    Row row;
+    for (std::size_t c = 0; c < columns; ++c) {
+        const double k = static_cast<double>(c) / (columns - 1);
+        row[c] = on_skull(skull_azimuth[c], y_front + (y_back - y_front) * k);
+    }
+    row.front().x = row.back().x = 0;
+    return row;
+}
+
+const std::array<Row, rows>& face_rows() {
+    // clang-format off
+    static const std::array<Row, rows> table{{
+        skull_row(90, 90),
+        skull_row(60, 62),
+        // brow
+        {{{0,25,98.5},{8,25.5,98},{16,27,96},{24,28.5,92.5},{36,29.5,87},{50,27,75},{62,27,50},{72.5,29,8},{75,30,-13},{73.5,30,-36},{50,30,-73},{0,30,-91.5}}},
+        // nasion, upper orbit, top of the ear
+        {{{0,9,94.5},{5,10,94},{10,11.5,92},{15.5,13,88.5},{31,16.5,86},{47,13,74},{60,14,50},{71,12,8},{73,13,-11},{73,9,-28},{52,8,-66},{0,6,-91}}},
+        // eye
+        {{{0,-4,96.5},{3.8,-4,95},{7.2,-3.5,91},{10.5,-2,86},{31,0,82},{52,0,66},{63.5,-1,44},{70,-5,9},{71.5,-7,-11},{72,-7,-30},{53,-12,-66},{0,-12,-88.5}}},
+        // lower orbit
+        {{{0,-17,107},{4.2,-17,105.5},{8.5,-17,99.5},{15,-16.5,86.5},{31,-19,82.5},{48.5,-15,71.5},{65,-17,41},{69.5,-21,9},{70,-22,-10},{70,-22,-28},{51,-32,-63},{0,-31,-82}}},
+        // tip of the nose, cheek bone, ear lobe
+        {{{0,-31.5,122},{6,-31,119},{14.5,-31,107},{20,-30,91},{34,-33,83.5},{52,-31,70},{66,-31,41},{68.5,-36,9},{68.5,-38,-8},{67.5,-36,-24},{49,-50,-59},{0,-49,-74}}},
+        // under the nose
+        {{{0,-39,117},{5,-38.8,115.5},{14.8,-38.5,105.5},{21.5,-39,91.5},{36,-46,83},{54,-44,67},{65,-43,38},{66.5,-45,7},{66,-48,-10},{63,-48,-26},{47,-62,-56},{0,-62,-68}}},
+        // subnasale
+        {{{0,-43,104.5},{6.5,-43,103.5},{13.5,-42.5,98.5},{22.5,-47,93},{38,-57,82},{54,-55,64.5},{64,-54,36},{64.5,-52,5},{63.5,-56,-11},{60.5,-58,-26},{45,-73,-53.5},{0,-74,-63}}},
+        // mouth
+        {{{0,-65,105},{7,-65,104},{18,-65,98},{34.5,-65,87},{45,-67,78.5},{55,-66,61},{62.5,-65,34},{62,-59,3},{61,-64,-12},{58.5,-68,-26},{44,-84,-52},{0,-86,-60}}},
+        // mentolabial groove
+        {{{0,-84,97},{7,-84.5,96.5},{15,-85,94},{27,-84.5,87.5},{40,-80,78},{52,-77,58},{60,-75,31},{59.5,-66,1},{58.5,-72,-13},{57,-78,-26},{43,-96,-51},{0,-97,-58.5}}},
+        // pogonion
+        {{{0,-98,99},{7.5,-98,98.5},{15,-98,95.5},{24.5,-97,88},{37,-93,75},{48.5,-88,55},{57,-84,28},{57.5,-73,-1},{57,-81,-14},{56,-89,-26},{42.5,-108,-51},{0,-109,-58}}},
+        // menton and the edge of the jaw
+        {{{0,-110,92},{7,-110,91.5},{14,-109,89},{22,-107,82.5},{34,-102,69},{44.5,-96.5,50},{53,-90,24},{55.5,-80,-4},{55.5,-91,-15},{55,-101,-26},{42,-121,-51},{0,-122,-58}}},
+        // under the jaw
+        {{{0,-115,60},{7,-115,59},{13,-114.5,57},{20,-113,53},{30,-110,45},{40,-106,32},{48,-102,14},{53,-96,-6},{54.5,-106,-16},{54,-115,-27},{42,-133,-52},{0,-134,-59}}},
+        // neck
+        {{{0,-128,43},{8,-128,42},{15,-128,40},{22,-128,37},{31,-127,30},{40,-126,19},{48,-124,5},{53,-122,-9},{55,-126,-19},{53.5,-132,-30},{42,-147,-54},{0,-148,-61}}},
+        // rim of the neck
+        {{{0,-170,36},{9,-170,35},{17,-170,32.5},{25,-170,29},{34,-170,22},{43,-170,12},{50.5,-170,0},{56,-170,-13},{59,-171,-24},{57,-173,-38},{42,-176,-60},{0,-177,-67}}},
+    }};
+    // clang-format on
+    return table;
+}
+
+// Texture layout: the grid is a rectangle, u by column from the middle outwards, v by row downwards.
+constexpr std::array<double, columns> column_u{.500, .530, .560, .592, .640, .695, .750, .800, .838, .880, .935, .998};
+constexpr std::array<double, rows> row_v{.280, .345, .430, .470, .520, .570, .612, .645,
+                                         .675, .735, .795, .835, .870, .905, .940, .995};
+
+using Block = std::vector<std::uint32_t>;
+
+struct Grid {
+    std::array<std::array<std::uint32_t, columns>, rows> point{};
+};
+
+struct Hole {
+    std::size_t row = 0, column = 0, height = 0, width = 0;
+};
+constexpr Hole eye_hole{3, 3, 2, 2};
+constexpr Hole mouth_hole{8, 0, 2, 3};
+constexpr Hole ear_hole{3, 7, 3, 2};
+constexpr Hole nostril_hole{7, 1, 1, 1};
+constexpr std::array<Hole, 4> holes{eye_hole, mouth_hole, ear_hole, nostril_hole};
+
+bool covers_cell(const Hole& h, std::size_t r, std::size_t c) {
+    return r >= h.row && r < h.row + h.height && c >= h.column && c < h.column + h.width;
+}
+
+bool covers_point(const Hole& h, std::size_t r, std::size_t c) {
+    const bool inner_column = c < h.column + h.width && (c > h.column || h.column == 0);
+    return r > h.row && r < h.row + h.height && inner_column;
+}
+
+Uv grid_uv(std::size_t r, std::size_t c) {
+    return {column_u[c], row_v[r]};
+}
+
+Grid add_grid(Cage& cage) {
+    Grid grid;
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const bool hidden =
+                std::any_of(holes.begin(), holes.end(), [&](const Hole& h) { return covers_point(h, r, c); });
+            grid.point[r][c] = hidden ? no_vertex : add_point(cage, face_rows()[r][c]);
+        }
+    for (std::size_t r = 0; r + 1 < rows; ++r)
+        for (std::size_t c = 0; c + 1 < columns; ++c) {
+            if (std::any_of(holes.begin(), holes.end(), [&](const Hole& h) { return covers_cell(h, r, c); })) continue;
+            cage.quads.push_back(
+                {{grid.point[r][c], grid.point[r + 1][c], grid.point[r + 1][c + 1], grid.point[r][c + 1]},
+                 {grid_uv(r, c), grid_uv(r + 1, c), grid_uv(r + 1, c + 1), grid_uv(r, c + 1)}});
+        }
+    return grid;
+}
+
+// The points round a hole, from its upper left corner over the top to the right, down, back along the bottom and, where
+// the hole does not lie at the midline, up again.
+Loop hole_loop(const Grid& grid, const Hole& h) {
+    Loop loop;
+    const auto visit = [&](std::size_t r, std::size_t c) {
+        loop.points.push_back(grid.point[r][c]);
+        loop.uvs.push_back(grid_uv(r, c));
+    };
+    const std::size_t bottom = h.row + h.height, right = h.column + h.width;
+    for (std::size_t c = h.column; c <= right; ++c) visit(h.row, c);
+    for (std::size_t r = h.row + 1; r <= bottom; ++r) visit(r, right);
+    for (std::size_t c = right; c-- > h.column;) visit(bottom, c);
+    loop.closed = h.column != 0;
+    if (loop.closed)
+        for (std::size_t r = bottom - 1; r > h.row; --r) visit(r, h.column);
+    return loop;
+}
+
+// The crown: a grid of 3 by 5 cells whose border is row 0.
+void add_crown(Cage& cage, const Grid& grid) {
+    constexpr std::size_t width = 3, length = 5;
+    std::array<std::array<std::uint32_t, length + 1>, width + 1> point{};
+    const auto& border = grid.point[0];
+    for (std::size_t i = 0; i <= width; ++i) point[i][0] = border[i], point[i][length] = border[columns - 1 - i];
+    for (std::size_t j = 0; j <= length; ++j) point[width][j] = border[width + j];
+    const auto uv = [](std::size_t i, std::size_t j) {
+        return Uv{.15 + .13 * static_cast<double>(i) / width, .01 + .25 * static_cast<double>(j) / length};
+    };
+    for (std::size_t j = 1; j < length; ++j)
+        for (std::size_t i = 0; i < width; ++i) {
+            const double s = static_cast<double>(i) / width, t = static_cast<double>(j) / length;
+            const Vec3 front = cage.points[point[i][0]], back = cage.points[point[i][length]];
+            const Vec3 side = cage.points[point[width][j]];
+            const double x = s * side.x * (1 - .12 * (1 - s));
+            const double z = (1 - s) * (front.z + (back.z - front.z) * t) + s * side.z;
+            const double rho = std::sqrt(std::pow(x / 76.5, 2) + std::pow((z - 2) / 94, 2));
+            const double y = 25 + 86 * std::pow(std::max(0.0, 1 - std::pow(rho, 2.3)), 1 / 2.3);
+            point[i][j] = add_point(cage, {x, y, z});
+        }
+    for (std::size_t j = 0; j < length; ++j)
+        for (std::size_t i = 0; i < width; ++i)
+            cage.quads.push_back({{point[i][j], point[i + 1][j], point[i + 1][j + 1], point[i][j + 1]},
+                                  {uv(i, j), uv(i + 1, j), uv(i + 1, j + 1), uv(i, j + 1)}});
+    for (std::size_t j = 0; j <= length; ++j) cage.rings["crown"].push_back(point[0][j]);
+}
+
+}  // namespace
+
+std::uint32_t add_point(Cage& cage, const Vec3& p) {
+    cage.points.push_back(p);
+    return static_cast<std::uint32_t>(cage.points.size() - 1);
+}
+
+std::vector<std::uint32_t> add_points(Cage& cage, const std::vector<Vec3>& points) {
+    std::vector<std::uint32_t> ids;
+    for (const Vec3& p : points) ids.push_back(add_point(cage, p));
+    return ids;
+}
+
+Loop add_strip(Cage& cage, const Loop& outer, const std::vector<Vec3>& points, const std::vector<Uv>& uvs, int count) {
+    const Loop inner{add_points(cage, points), uvs, outer.closed};
+    const std::size_t n = outer.points.size();
+    for (std::size_t i = 0; i < (outer.closed ? n : n - 1); ++i) {
+        const std::size_t j = (i + 1) % n;
+        cage.quads.push_back({{outer.points[i], inner.points[i], inner.points[j], outer.points[j]},
+                              {outer.uvs[i], inner.uvs[i], inner.uvs[j], outer.uvs[j]}});
+    }
+    cage.counts.push_back({outer.points[0], inner.points[0], count});
+    return inner;
+}
+
+std::vector<Uv> shrunk(const std::vector<Uv>& uvs, const Uv& centre, double su, double sv) {
+    std::vector<Uv> result;
+    for (const Uv& p : uvs) result.push_back({centre.u + su * (p.u - centre.u), centre.v + sv * (p.v - centre.v)});
+    return result;
+}
+
+Cage head_cage() {
+    Cage cage;
+    const Grid grid = add_grid(cage);
+    for (std::size_t r = 0; r < rows; ++r)
+        cage.rings["row" + std::to_string(r)].assign(grid.point[r].begin(), grid.point[r].end());
+    add_crown(cage, grid);
+    // Loops of 32 round the eye: its rows and columns are cut finer than the rest.
+    cage.counts.push_back({grid.point[2][3], grid.point[2][4], 4});
+    cage.counts.push_back({grid.point[2][4], grid.point[2][5], 4});
+    cage.counts.push_back({grid.point[3][2], grid.point[4][2], 4});
+    cage.counts.push_back({grid.point[4][2], grid.point[5][2], 4});
+    add_eye(cage, hole_loop(grid, eye_hole));
+    add_mouth(cage, hole_loop(grid, mouth_hole));
+    add_ear(cage, hole_loop(grid, ear_hole));
+    add_nostril(cage, hole_loop(grid, nostril_hole));
+    return cage;
+}
+
+}  // namespace mien::samples

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// Half loops round the mouth, nine points each from the midline above over the corner to the midline below, from the
+// skin over the vermilion to the line where the lips touch, and behind it the bag of the inner mouth, closed at its
+// back.
+
+#include "head_cage.hpp"
+
+namespace mien::samples {
+namespace {
+
+struct Ring {
+    const char* name;
+    double su, sv;  // texture: shrunk from the surround, or the size in the island of the inner mouth
+    int count;
+    std::vector<Vec3> points;
+};
+
+// clang-format off
+const std::vector<Ring>& outer_rings() {
+    static const std::vector<Ring> rings{
+        {"mouth.skin", .88, .74, 2, {{0,-50,105},{6,-50,105.3},{13,-50.5,102},{21.5,-54,96.5},{30,-65,90},{22,-79.5,93.5},{14,-80.5,97.5},{6.5,-80.5,99.5},{0,-80.5,100}}},
+        {"mouth.border", .78, .44, 2, {{0,-57.5,108},{5,-56.6,108.3},{12.5,-58.5,105},{19.5,-61.5,99.5},{25.8,-65.3,91.8},{19,-70.5,98},{12,-73.5,102.5},{6,-74.5,104.5},{0,-74.8,105}}},
+        {"mouth.vermilion", .72, .22, 2, {{0,-61.5,109},{5.2,-61,108.8},{12,-62,105.5},{18.8,-63.4,99.8},{25,-65.2,92},{18.3,-67.8,99},{11.8,-69.8,103.8},{5.8,-70.4,106},{0,-70.5,106.5}}},
+        {"mouth.contact", .68, 0, 2, {{0,-65,105.5},{5,-65,105},{11.5,-65,102.2},{18,-65,97.5},{24.2,-65.1,91},{18,-65,97.5},{11.5,-65,102.2},{5,-65,105},{0,-65,105.5}}},
+    };
+    return rings;
+}
+
+const std::vector<Ring>& inner_rings() {
+    static const std::vector<Ring> rings{
+        {"mouth.behind", .92, .92, 1, {{0,-65,101.8},{5,-65,101.3},{11,-65,98.6},{17.3,-65,94},{22.8,-65,89},{17.3,-65,94},{11,-65,98.6},{5,-65,101.3},{0,-65,101.8}}},
+        {"mouth.inner", .80, .80, 1, {{0,-60.5,99.8},{5,-60.5,99.3},{11,-60.7,96.6},{17.5,-61.5,92},{24,-65,86},{17.5,-69,91.5},{11,-70.2,95.5},{5,-70.6,98},{0,-70.7,98.5}}},
+        {"mouth.vestibule", .64, .64, 2, {{0,-51.5,98},{5,-51.5,97.5},{12,-52.5,95},{20,-56,88.5},{29,-65,78},{20,-76,86},{12,-79.5,90.5},{5,-80.5,93},{0,-80.5,93.5}}},
+        {"mouth.roof", .42, .42, 2, {{0,-46.5,76},{6,-46.5,76},{14,-47.5,75},{24,-52,72},{31,-65,66},{24,-81,68},{14,-86,70},{6,-87,71},{0,-87,71.5}}},
+        {"mouth.throat", .22, .22, 2, {{0,-51,48},{5,-51,48},{11,-53,48},{17,-58,48},{20,-66,48},{17,-75,48},{11,-80,48},{5,-82,48},{0,-82,48}}},
+    };
+    return rings;
+}
+// clang-format on
+
+// The inner mouth is an island of its own in the texture: nested half discs.
+std::vector<Uv> island(double scale) {
+    constexpr Uv centre{.42, .14};
+    constexpr double du[9]{0, .35, .7, .93, 1, .93, .7, .35, 0};
+    constexpr double dv[9]{-1, -.94, -.71, -.38, 0, .38, .71, .94, 1};
+    std::vector<Uv> uvs;
+    for (int i = 0; i < 9; ++i) uvs.push_back({centre.u + .12 * scale * du[i], centre.v + .12 * scale * dv[i]});
+    return uvs;
+}
+
+// The back of the inner mouth: 2 by 4 cells inside the last loop.
+void close_throat(Cage& cage, const Loop& loop) {
+    std::array<std::array<std::uint32_t, 5>, 3> point{};
+    std::array<std::array<Uv, 5>, 3> uv{};
+    for (std::size_t i = 0; i <= 2; ++i) {
+        point[i][0] = loop.points[i], uv[i][0] = loop.uvs[i];
+        point[i][4] = loop.points[8 - i], uv[i][4] = loop.uvs[8 - i];
+    }
+    for (std::size_t j = 0; j <= 4; ++j) point[2][j] = loop.points[2 + j], uv[2][j] = loop.uvs[2 + j];
+    for (std::size_t j = 1; j < 4; ++j)
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double s = static_cast<double>(i) / 2, t = static_cast<double>(j) / 4;
+            const Vec3 a = cage.points[point[i][0]], b = cage.points[point[i][4]], c = cage.points[point[2][j]];
+            const Vec3 column = a + t * (b - a);
+            point[i][j] = add_point(cage, {s * c.x, (1 - s) * column.y + s * c.y, 45});
+            uv[i][j] = {uv[0][0].u + s * (uv[2][j].u - uv[0][0].u), uv[i][0].v + t * (uv[i][4].v - uv[i][0].v)};
+        }
+    for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t i = 0; i < 2; ++i)
+            cage.quads.push_back({{point[i][j], point[i][j + 1], point[i + 1][j + 1], point[i + 1][j]},
+                                  {uv[i][j], uv[i][j + 1], uv[i + 1][j + 1], uv[i + 1][j]}});
+}
+
+}  // namespace
+
+void add_mouth(Cage& cage, const Loop& surround) {
+    cage.rings["mouth.surround"] = surround.points;
+    const Uv centre{surround.uvs[0].u, surround.uvs[4].v};
+    Loop loop = surround;
+    for (const Ring& ring : outer_rings()) {
+        loop = add_strip(cage, loop, ring.points, shrunk(surround.uvs, centre, ring.su, ring.sv), ring.count);
+        cage.rings[ring.name] = loop.points;
+    }
+    loop.uvs = island(1);
+    for (const Ring& ring : inner_rings()) {
+        loop = add_strip(cage, loop, ring.points, island(ring.su), ring.count);
+        cage.rings[ring.name] = loop.points;
+    }
+    close_throat(cage, loop);
+}
+
+}  // namespace mien::samples
