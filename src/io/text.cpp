@@ -148,14 +148,13 @@ std::string_view Words::next() {
     return text_.substr(begin, at_ - begin);
 }
 
-std::vector<std::string_view> tab_cells(std::string_view line) {
-    std::vector<std::string_view> cells;
+void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
+    cells.clear();
     for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find('\t', begin), line.size());
+        const std::size_t end = std::min(line.find(separator, begin), line.size());
         cells.push_back(trimmed(line.substr(begin, end - begin)));
         begin = end + 1;
     }
-    return cells;
 }
 
 namespace {

@@ -92,8 +92,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// The cells of a line between tabs, trimmed.
-std::vector<std::string_view> tab_cells(std::string_view line);
+/// The cells of a line between separators, trimmed, into `cells`.
+void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells);
 
 /// The cells of a line of comma-separated values, trimmed, quotes taken off. Nothing when a quote is not closed.
 std::optional<std::vector<std::string>> comma_cells(std::string_view line);

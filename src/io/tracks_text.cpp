@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "io/tracks_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <set>
+
+#include "mien/error.hpp"
+
+namespace mien {
+
+namespace {
+
+// Squares and single precision of numbers up to here stay finite; no unit of length makes a face larger.
+constexpr double largest_coordinate = 1e15;
+
+double read_coordinate(const Lines& lines, std::string_view point, char axis, std::string_view cell) {
+    if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const std::optional<double> number = parse_double(cell);
+    if (!number || std::abs(*number) > largest_coordinate)
+        lines.fail(fmt::format("expected a coordinate {} of {} within 1e15, or an empty cell, found {}", axis,
+                               shown(point), shown(cell)));
+    return *number;
+}
+
+bool is_plain_zero(double number) {
+    return number == 0 && !std::signbit(number);
+}
+
+}  // namespace
+
+Vec3 read_sample(const Lines& lines, std::string_view point, const std::array<std::string_view, 3>& cells,
+                 bool planar) {
+    const Vec3 sample{read_coordinate(lines, point, 'x', cells[0]), read_coordinate(lines, point, 'y', cells[1]),
+                      planar ? 0 : read_coordinate(lines, point, 'z', cells[2])};
+    const bool zero = is_plain_zero(sample.x) && is_plain_zero(sample.y) && is_plain_zero(sample.z);
+    return zero || !is_finite(sample) ? lost_sample : sample;
+}
+
+void append_sample(std::string& text, const Vec3& sample, bool planar, char separator) {
+    const std::array<double, 3> numbers{sample == Vec3{} ? -0.0 : sample.x, sample.y, sample.z};
+    for (std::size_t axis = 0; axis < (planar ? 2U : 3U); ++axis) {
+        text += separator;
+        if (is_finite(sample)) append_number(text, numbers[axis]);
+    }
+}
+
+void add_time(const Lines& lines, std::string_view cell, Take& take) {
+    const std::optional<double> time = parse_double(cell);
+    if (!time || !std::isfinite(*time)) lines.fail(fmt::format("expected a time in seconds, found {}", shown(cell)));
+    if (!take.times.empty() && *time <= take.times.back())
+        lines.fail(fmt::format("expected a time after {}, found {}", take.times.back(), shown(cell)));
+    take.times.push_back(*time);
+}
+
+void check_seen(const Take& take, std::string_view format) {
+    if (take.times.empty()) throw Error(fmt::format("{}: expected rows of samples, found none", format));
+    if (!take.points.empty() && std::none_of(take.samples.begin(), take.samples.end(), is_finite<double>))
+        throw Error(fmt::format("{}: expected samples, found no sample at all: every one of {} rows is lost", format,
+                                take.times.size()));
+}
+
+void check_names(const Lines& lines, const Take& take) {
+    std::set<std::string_view> names;
+    for (const std::string& name : take.points) {
+        if (name.empty()) lines.fail("expected the name of a point, found nothing");
+        if (!names.insert(name).second)
+            lines.fail(fmt::format("expected each point once, found {} twice", shown(name)));
+    }
+}
+
+}  // namespace mien

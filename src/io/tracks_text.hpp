@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// What the text formats of takes share: one rule for lost samples, for times, and for numbers that are no coordinates.
+
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "io/text.hpp"
+
+#include "mien/take.hpp"
+
+namespace mien {
+
+/// One sample from its cells. It is lost, all three coordinates, when one cell is empty or NaN, or when every cell is
+/// an exact, unsigned zero, the habit of some capture systems. A planar sample has no z cell. Throws Error at anything
+/// that is no number, infinite or larger than 1e15, naming line, point and axis.
+Vec3 read_sample(const Lines& lines, std::string_view point, const std::array<std::string_view, 3>& cells, bool planar);
+
+/// The cells of a sample, each behind `separator`, so that read_sample reads equal numbers: empty when lost; a sample
+/// that is seen exactly at the origin begins with "-0".
+void append_sample(std::string& text, const Vec3& sample, bool planar, char separator);
+
+/// Adds the time of a row. Throws Error unless it is finite and greater than the one before.
+void add_time(const Lines& lines, std::string_view cell, Take& take);
+
+/// Throws Error when the take has no row, or points but no sample that was seen.
+void check_seen(const Take& take, std::string_view format);
+
+/// Throws Error when a name comes twice or is empty.
+void check_names(const Lines& lines, const Take& take);
+
+}  // namespace mien
