@@ -23,6 +23,8 @@ struct Take {
     std::vector<Pose> head;  ///< empty, or one head pose per row: samples were p = pose^-1 applied to the capture
     std::string unit;        ///< the unit the file states ("mm", "cm", "m"); empty when it states none
     bool planar = false;     ///< a 2D source: z is absent and held at 0
+    /// Rows of the file that gave way to the next one because it has the same time. For reports.
+    std::size_t repeated_rows = 0;
 };
 
 /// One row of a take; also what a live source hands over.

@@ -6,6 +6,7 @@
 
 #include "mien/io/read.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -74,6 +75,39 @@ bool has_extension(const fs::path& path, std::string_view extension) {
                             shown(path.extension().string())));
 }
 
+// Twice the area of a polygon as a vector, and the square of how far it reaches from its first corner.
+struct Extent {
+    Vec3 area;
+    double reach = 0;
+};
+
+Extent extent(const Mesh& mesh, std::size_t f) {
+    const std::span<const std::uint32_t> corners = face(mesh, f);
+    const Vec3 first = to_double(mesh.positions[corners[0]]);
+    Extent result;
+    Vec3 before;
+    for (const std::uint32_t corner : corners) {
+        const Vec3 here = to_double(mesh.positions[corner]) - first;
+        result.area += cross(before, here);
+        result.reach = std::max(result.reach, dot(here, here));
+        before = here;
+    }
+    return result;
+}
+
+// A head whose every face is a point or a line has no surface to spread motion over. Single flat faces are common and
+// do no harm, and fewer faces than close round anything are a stub beside curves or points, read as it is. Rounding of
+// single precision alone makes a line 1e-7 of its length wide.
+void refuse_flat(const Mesh& mesh) {
+    constexpr double thin = 1e-6;
+    constexpr std::size_t fewest_of_a_body = 4;
+    for (std::size_t f = 0; f < face_count(mesh); ++f)
+        if (const Extent e = extent(mesh, f); length(e.area) > thin * e.reach) return;
+    if (face_count(mesh) >= fewest_of_a_body)
+        throw Error(fmt::format("expected a surface, found no area in any of {} faces: all lie on a point or a line",
+                                face_count(mesh)));
+}
+
 // Whether `path` lies inside `folder`; both are real paths, links followed.
 bool is_inside(const fs::path& path, const fs::path& folder) {
     const fs::path relative = path.lexically_relative(folder);
@@ -92,16 +126,28 @@ Bytes fetch_beside(const fs::path& gltf, std::string_view uri) {
     return read_bytes(target);
 }
 
+// The parser of a mesh by extension; an unknown one is refused before the file is opened.
+using ParseMesh = std::function<Mesh(std::span<const std::byte>)>;
+ParseMesh mesh_parser(const fs::path& path) {
+    if (has_extension(path, ".obj")) return parse_obj;
+    if (has_extension(path, ".off")) return parse_off;
+    if (has_extension(path, ".ply")) return parse_ply;
+    if (!has_extension(path, ".glb") && !has_extension(path, ".gltf"))
+        unknown_extension(path, ".glb, .gltf, .obj, .off or .ply");
+    return [path](std::span<const std::byte> bytes) {
+        return parse_gltf(bytes, [&](std::string_view uri) { return fetch_beside(path, uri); });
+    };
+}
+
 }  // namespace
 
 Mesh read_mesh(const fs::path& path) {
-    if (has_extension(path, ".obj")) return parsed(path, parse_obj);
-    if (has_extension(path, ".off")) return parsed(path, parse_off);
-    if (has_extension(path, ".ply")) return parsed(path, parse_ply);
-    if (!has_extension(path, ".glb") && !has_extension(path, ".gltf"))
-        unknown_extension(path, ".glb, .gltf, .obj, .off or .ply");
-    const Fetch fetch = [&](std::string_view uri) { return fetch_beside(path, uri); };
-    return parsed(path, [&](std::span<const std::byte> bytes) { return parse_gltf(bytes, fetch); });
+    const ParseMesh parse = mesh_parser(path);
+    return parsed(path, [&](std::span<const std::byte> bytes) {
+        Mesh mesh = parse(bytes);
+        refuse_flat(mesh);
+        return mesh;
+    });
 }
 
 Take read_take(const fs::path& path) {

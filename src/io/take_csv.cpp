@@ -114,7 +114,7 @@ Columns read_header(Lines& lines, Take& take) {
 void read_row(const Lines& lines, const Columns& columns, const Row& row, Take& take) {
     if (row.cells.size() != columns.count)
         lines.fail(fmt::format("expected {} cells, found {}", columns.count, row.cells.size()));
-    add_time(lines, row.cells[columns.time], take);
+    begin_row(lines, row.cells[columns.time], take);
     for (std::size_t p = 0; p < take.points.size(); ++p) {
         const auto& axes = columns.axes[p];
         const std::string_view z = take.planar ? std::string_view() : row.cells[axes[2]];
@@ -152,6 +152,7 @@ std::string cell(const std::string& text) {
 }  // namespace
 
 std::string format_take_csv(const Take& take) {
+    check_printable(take, "csv");
     std::string text = "time";
     for (const std::string& point : take.points)
         for (const char axis : std::string_view(take.planar ? "xy" : "xyz")) text += ',' + cell(point + '.' + axis);

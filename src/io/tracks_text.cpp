@@ -49,12 +49,17 @@ void append_sample(std::string& text, const Vec3& sample, bool planar, char sepa
     }
 }
 
-void add_time(const Lines& lines, std::string_view cell, Take& take) {
+void begin_row(const Lines& lines, std::string_view cell, Take& take) {
     const std::optional<double> time = parse_double(cell);
     if (!time || !std::isfinite(*time)) lines.fail(fmt::format("expected a time in seconds, found {}", shown(cell)));
-    if (!take.times.empty() && *time <= take.times.back())
-        lines.fail(fmt::format("expected a time after {}, found {}", take.times.back(), shown(cell)));
-    take.times.push_back(*time);
+    if (!take.times.empty() && *time < take.times.back())
+        lines.fail(fmt::format("expected a time from {}, found {}", take.times.back(), shown(cell)));
+    if (!take.times.empty() && *time == take.times.back()) {
+        take.samples.resize(take.samples.size() - take.points.size());
+        ++take.repeated_rows;
+    } else {
+        take.times.push_back(*time);
+    }
 }
 
 void check_seen(const Take& take, std::string_view format) {
@@ -62,6 +67,13 @@ void check_seen(const Take& take, std::string_view format) {
     if (!take.points.empty() && std::none_of(take.samples.begin(), take.samples.end(), is_finite<double>))
         throw Error(fmt::format("{}: expected samples, found no sample at all: every one of {} rows is lost", format,
                                 take.times.size()));
+}
+
+void check_printable(const Take& take, std::string_view format) {
+    for (const std::string& name : take.points)
+        if (name.empty() || trimmed(name) != name || name.find_first_of("\t\r\n") != std::string::npos)
+            throw Error(fmt::format("{}: expected the name of a point on one line without tabs, found {}", format,
+                                    shown(name)));
 }
 
 void check_names(const Lines& lines, const Take& take) {

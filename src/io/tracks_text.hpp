@@ -24,11 +24,15 @@ Vec3 read_sample(const Lines& lines, std::string_view point, const std::array<st
 /// that is seen exactly at the origin begins with "-0".
 void append_sample(std::string& text, const Vec3& sample, bool planar, char separator);
 
-/// Adds the time of a row. Throws Error unless it is finite and greater than the one before.
-void add_time(const Lines& lines, std::string_view cell, Take& take);
+/// Begins a row at a time. A row at the time of the one before takes its place: coarse clocks stamp two rows alike, and
+/// the later one is fresher. Throws Error unless the time is finite and does not go back.
+void begin_row(const Lines& lines, std::string_view cell, Take& take);
 
 /// Throws Error when the take has no row, or points but no sample that was seen.
 void check_seen(const Take& take, std::string_view format);
+
+/// Throws Error when the take's names cannot stand in a line of text: one holds a tab or the end of a line.
+void check_printable(const Take& take, std::string_view format);
 
 /// Throws Error when a name comes twice or is empty.
 void check_names(const Lines& lines, const Take& take);

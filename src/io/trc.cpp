@@ -120,14 +120,16 @@ void read_axes(Lines& lines) {
         lines.fail(fmt::format("expected two empty cells, then X1 Y1 Z1, found {}", shown(cells[0])));
 }
 
+// Behind the named markers a row may end in empty cells. A file that names no marker at all holds unlabelled ones, as
+// many as were seen in each row: nothing that could be followed.
 void read_row(const Lines& lines, const Cells& cells, Take& take) {
     if (!parse_double(cells[0])) lines.fail(fmt::format("expected a frame number, found {}", shown(cells[0])));
     const std::size_t wanted = 2 + 3 * take.points.size();
     if (cells.size() < wanted) lines.fail(fmt::format("expected {} cells, found {}", wanted, cells.size()));
-    for (std::size_t c = wanted; c < cells.size(); ++c)
+    for (std::size_t c = wanted; c < cells.size() && !take.points.empty(); ++c)
         if (!cells[c].empty())
             lines.fail(fmt::format("expected {} cells, found {} in column {}", wanted, shown(cells[c]), c + 1));
-    add_time(lines, cells[1], take);
+    begin_row(lines, cells[1], take);
     for (std::size_t p = 0; p < take.points.size(); ++p) {
         const std::size_t c = 2 + 3 * p;
         take.samples.push_back(read_sample(lines, take.points[p], {cells[c], cells[c + 1], cells[c + 2]}, false));
@@ -178,6 +180,7 @@ void append_header(std::string& text, const Take& take) {
 }  // namespace
 
 std::string format_trc(const Take& take) {
+    check_printable(take, "trc");
     std::string text;
     append_header(text, take);
     for (std::size_t r = 0; r < row_count(take); ++r) {

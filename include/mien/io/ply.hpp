@@ -10,7 +10,8 @@
 
 namespace mien {
 
-/// Stanford PLY: text and binary, both byte orders; properties other than x, y, z and the face list are skipped.
+/// Stanford PLY: text and binary, both byte orders; elements and properties other than x, y, z and
+/// the face list (vertex_indices or vertex_index) are skipped, and so are faces of fewer than three corners.
 /// Throws Error naming the line or byte, what was expected and what was found.
 Mesh parse_ply(std::span<const std::byte> bytes);
 

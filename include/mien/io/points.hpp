@@ -20,7 +20,9 @@ struct PointsFile {
 
 /// Feature points of `mesh` from JSON: a map id -> value at top level or under "points"; keys that start with `_` are
 /// ignored. A value is a vertex index, a position [x, y, z] that is snapped to the nearest surface vertex, or an object
-/// with `vertex` and `mesh` (name or number) or `position`, and optional `moves` ("xz").
+/// with `vertex` and `mesh` (name or number) or `position`, and optional `moves` ("xz"). With `mesh` the index counts
+/// in that mesh, through its primitives; without, over all vertices of the file in file order. Ids that MPEG-4 does not
+/// know are kept with a warning; so are positions that lie more than 5 % of the box diagonal away from the surface.
 /// Throws Error naming the JSON pointer: no points, an index past the end, a key given twice, two points on one place.
 PointsFile parse_points(std::span<const std::byte> bytes, const Mesh& mesh);
 

@@ -15,7 +15,8 @@
 namespace mien {
 
 /// Reads a head by its extension: .glb .gltf .obj .off .ply. Throws Error whose sentence starts with the file's name;
-/// Kind::access when the file cannot be read.
+/// Kind::access when the file cannot be read. A mesh whose faces all lie on a point or a line is refused. A .gltf may
+/// name files in its own folder and below, nothing else.
 Mesh read_mesh(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv.

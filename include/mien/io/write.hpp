@@ -26,7 +26,8 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
 /// Writes a take by its extension: .csv .trc.
 void write(const Take& take, const std::filesystem::path& path, const WriteOptions& options = {});
 
-/// Writes a baked motion by its extension: .mdd, .pc2, or a folder of .obj when the path has no extension.
+/// Writes a baked motion by its extension: .mdd, .pc2, or a folder of frame_000001.obj ... when the path has no
+/// extension. A folder is replaced only when it holds nothing but such frames.
 void write(const MeshSequence& sequence, const std::filesystem::path& path, const WriteOptions& options = {});
 
 }  // namespace mien
