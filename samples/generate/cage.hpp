@@ -18,6 +18,7 @@ namespace mien::samples {
 struct CageQuad {
     std::array<std::uint32_t, 4> corners{};
     std::array<Uv, 4> uvs{};
+    Region region = Region::skin;
 };
 
 /// How many quads an edge of the cage becomes. All edges that lie opposite to each other in a strip of quads agree.

@@ -37,11 +37,11 @@ void add_ear(Cage& cage, const Loop& root) {
     // From the top front over the top, down the back, along the lobe and up the front.
     // clang-format off
     const std::vector<Ring> rings{
-        {"ear.root", .86, {{70.6,8.5,3.5},{72.6,8.5,-8},{73.2,4,-18},{72.8,-6,-21},{71.2,-18,-20},{69.8,-28,-15},{69.2,-33,-6},{69.6,-33,3.5},{70.6,-21,7},{71.2,-4,7}}},
-        {"ear.back", .74, in_ear_plane({{4,19,0},{13,27,-2.5},{24,23,-3},{30,11,-3},{27,-5,-3},{19,-17,-2.5},{11,-26,-2},{4,-24,-.5},{.5,-10,0},{.5,5,0}})},
-        {"ear.edge", .64, in_ear_plane({{4,21,1.5},{14,31,.5},{27,27,0},{34,13,0},{31,-5,0},{22,-19,0},{12,-29.5,.5},{4,-26.5,1},{1,-10,1.5},{1,6,1.5}})},
-        {"ear.helix", .54, in_ear_plane({{5.5,19.5,4},{14,28.5,3.5},{25.5,25,3},{31.5,12,3},{28.5,-5,2.5},{20,-18,2},{11.5,-27,2},{5.5,-24.5,2.5},{3,-11,4.5},{2.5,4,3.5}})},
-        {"ear.scapha", .43, in_ear_plane({{8,16.5,1.5},{14.5,23.5,.5},{22.5,20.5,.5},{26.5,10,.5},{24,-4,.5},{17.5,-13.5,1},{11.5,-19,1.5},{8,-17,2},{6.5,-10,3.5},{6,4,2}})},
+        {"ear.root", .86, {{70.6,4,4},{72.2,8.2,-7},{73,3,-17},{72.6,-7,-20},{71.2,-18,-19.5},{69.8,-28,-15},{69.2,-34,-6},{69.4,-34,4.5},{70.3,-20,8.2},{70.4,-7,8.6}}},
+        {"ear.back", .74, in_ear_plane({{3,18.6,0},{13,27,-2.5},{24,23.5,-3},{30,11,-3},{27,-5,-3},{19,-17,-2.5},{11,-26,-2},{3,-22.5,-.2},{.2,-6,.5},{.2,7,.5}})},
+        {"ear.edge", .64, in_ear_plane({{1.8,20.5,2},{14,31,.5},{27,27,0},{34,13,0},{31,-5,0},{22,-19,0},{12,-29.5,.5},{4,-25.5,1},{.6,-6.5,2.4},{.4,7.5,2}})},
+        {"ear.helix", .54, in_ear_plane({{4,19.8,4.2},{14,28.5,3.5},{25.5,25,3},{31.5,12,3},{28.5,-5,2.5},{20,-18,2},{11.5,-27,2},{5.5,-23.5,2.5},{2.8,-6.5,5},{2.4,7.5,4}})},
+        {"ear.scapha", .43, in_ear_plane({{8,16.5,1.5},{14.5,23.5,.5},{22.5,20.5,.5},{26.5,10,.5},{24,-4,.5},{17.5,-13.5,1},{11.5,-19,1.5},{8,-17,2},{6.2,-7,3.5},{6,6,2}})},
         {"ear.antihelix", .32, in_ear_plane({{10,13,1},{14.5,17.5,2},{19,15,3},{21.5,7.5,3.5},{20,-3,3.5},{15.5,-10,3},{11.5,-12.5,3},{9.5,-11.5,2},{7.5,-7.5,2},{7.5,4,.5}})},
         {"ear.concha", .21, in_ear_plane({{10.5,9,-4},{13,10,-4},{16,8.5,-5},{17,4,-6},{16,-2,-6},{13.5,-6,-6},{11.5,-7,-5.5},{10,-6.5,-5},{9,-3,-5},{9,3,-5}})},
     };
@@ -50,7 +50,7 @@ void add_ear(Cage& cage, const Loop& root) {
     const Uv centre{(root.uvs[0].u + root.uvs[5].u) / 2, (root.uvs[0].v + root.uvs[5].v) / 2};
     Loop loop = root;
     for (const Ring& ring : rings) {
-        loop = add_strip(cage, loop, ring.points, shrunk(root.uvs, centre, ring.shrink, ring.shrink), 2);
+        loop = add_strip(cage, loop, {ring.points, shrunk(root.uvs, centre, ring.shrink, ring.shrink), 2});
         cage.rings[ring.name] = loop.points;
     }
     // The floor of the concha: 2 by 3 cells.
@@ -69,13 +69,19 @@ void add_ear(Cage& cage, const Loop& root) {
 void add_nostril(Cage& cage, const Loop& rim) {
     const Uv centre{(rim.uvs[0].u + rim.uvs[2].u) / 2, (rim.uvs[0].v + rim.uvs[2].v) / 2};
     // Corners: front inner, front outer, back outer, back inner.
-    Loop loop = add_strip(cage, rim, {{6, -38.8, 113}, {12.3, -38.6, 106.5}, {12.2, -40, 101.5}, {7.3, -40.6, 104.5}},
-                          shrunk(rim.uvs, centre, .7, .7), 1);
+    Loop loop = add_strip(cage, rim,
+                          {{{6.2, -38.6, 110.3}, {12.4, -38.6, 105}, {12.3, -40, 101}, {7.3, -40.8, 103.4}},
+                           shrunk(rim.uvs, centre, .7, .7),
+                           1});
     cage.rings["nostril.rim"] = loop.points;
-    loop = add_strip(cage, loop, {{6.3, -33, 109.5}, {11, -33, 105.5}, {11, -33.5, 102}, {7.3, -33.5, 104}},
-                     shrunk(rim.uvs, centre, .4, .4), 2);
+    loop = add_strip(cage, loop,
+                     {{{6.6, -33, 107.5}, {11, -33, 104.5}, {11, -33.5, 101.5}, {7.3, -33.5, 103}},
+                      shrunk(rim.uvs, centre, .4, .4),
+                      2,
+                      Region::inner_mouth});
     cage.quads.push_back({{loop.points[0], loop.points[3], loop.points[2], loop.points[1]},
-                          {loop.uvs[0], loop.uvs[3], loop.uvs[2], loop.uvs[1]}});
+                          {loop.uvs[0], loop.uvs[3], loop.uvs[2], loop.uvs[1]},
+                          Region::inner_mouth});
 }
 
 }  // namespace mien::samples

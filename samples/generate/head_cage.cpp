@@ -20,17 +20,28 @@ using Row = std::array<Vec3, columns>;
 // Columns: 0 midline, 1-2 nose, 3 inner orbit and corner of the mouth block, 4 pupil, 5 outer orbit, 6 temple and jaw,
 // 7-9 round the ear, 10 back, 11 midline at the back.
 // Rows 0 and 1 lie on the skull's superellipsoid.
-constexpr std::array<double, columns> skull_azimuth{0, 6, 13, 21, 32, 45, 63, 84, 102, 122, 150, 180};
+constexpr std::array<double, columns> skull_azimuth{0, 6, 13, 21, 32, 46, 64, 84, 102, 122, 150, 180};
+
+// The cranium: a superellipsoid, rounder from above than from the side.
+constexpr Vec3 skull_centre{0, 25, 2}, skull_axes{76, 86, 94};
+constexpr double skull_round_above = 2.1, skull_round_up = 2.2;
+
+// 1 on the surface, of first degree along rays from the centre.
+double skull_level(const Vec3& p) {
+    const Vec3 d = p - skull_centre;
+    const double ring = std::pow(std::abs(d.x) / skull_axes.x, skull_round_above) +
+                        std::pow(std::abs(d.z) / skull_axes.z, skull_round_above);
+    return std::pow(
+        std::pow(ring, skull_round_up / skull_round_above) + std::pow(std::abs(d.y) / skull_axes.y, skull_round_up),
+        1 / skull_round_up);
+}
 
 Vec3 on_skull(double azimuth_degrees, double y) {
-    constexpr Vec3 centre{0, 25, 2};
-    constexpr double width = 76.5, height = 86, depth = 94;
-    constexpr double n = 2.3, m = 2.15;
-    const double ring = std::pow(1 - std::pow((y - centre.y) / height, n), 1 / n);
+    const double ring = std::pow(1 - std::pow((y - skull_centre.y) / skull_axes.y, skull_round_up), 1 / skull_round_up);
     const double t = azimuth_degrees * std::numbers::pi / 180;
-    const double s = std::sin(t), c = std::cos(t);
-    const double r = std::pow(std::pow(std::abs(s) / width, m) + std::pow(std::abs(c) / depth, m), -1 / m);
-    return {ring * r * s, y, centre.z + ring * r * c};
+    const Vec3 ray{std::sin(t), 0, std::cos(t)};
+    const double r = ring / skull_level(skull_centre + ray);
+    return {r * ray.x, y, skull_centre.z + r * ray.z};
 }
 
 Row skull_row(double y_front, double y_back) {
@@ -49,33 +60,33 @@ const std::array<Row, rows>& face_rows() {
         skull_row(90, 90),
         skull_row(60, 62),
         // brow
-        {{{0,25,98.5},{8,25.5,98},{16,27,96},{24,28.5,92.5},{36,29.5,87},{50,27,75},{62,27,50},{72.5,29,8},{75,30,-13},{73.5,30,-36},{50,30,-73},{0,30,-91.5}}},
+        {{{0,25,98},{8,25.5,97.6},{16,27,95.8},{24,28.5,92.5},{36,29.5,87},{50,27,75.5},{62,27,50},{72,29,8},{74.5,30,-13},{73,30,-36},{50,30,-73},{0,30,-91.5}}},
         // nasion, upper orbit, top of the ear
-        {{{0,9,94.5},{5,10,94},{10,11.5,92},{15.5,13,88.5},{31,16.5,86},{47,13,74},{60,14,50},{71,12,8},{73,13,-11},{73,9,-28},{52,8,-66},{0,6,-91}}},
+        {{{0,9,95},{5,10,94.2},{10,11.5,92},{15.5,13,88.5},{31,16.5,86},{47,13,74},{60,14,50},{70.5,9,8},{72.5,12,-9},{72.5,8,-27},{52,8,-70.5},{0,6,-91}}},
         // eye
-        {{{0,-4,96.5},{3.8,-4,95},{7.2,-3.5,91},{10.5,-2,86},{31,0,82},{52,0,66},{63.5,-1,44},{70,-5,9},{71.5,-7,-11},{72,-7,-30},{53,-12,-66},{0,-12,-88.5}}},
+        {{{0,-4,98},{4,-4,96.5},{7.6,-3.5,92},{10.8,-2,86.2},{31,0,82},{52,0,66},{64,-1,44},{70,-6,10},{71.5,-7,-11},{71.5,-8,-29},{53,-12,-66.8},{0,-12,-88.5}}},
         // lower orbit
-        {{{0,-17,107},{4.2,-17,105.5},{8.5,-17,99.5},{15,-16.5,86.5},{31,-19,82.5},{48.5,-15,71.5},{65,-17,41},{69.5,-21,9},{70,-22,-10},{70,-22,-28},{51,-32,-63},{0,-31,-82}}},
+        {{{0,-17,107},{4.6,-17,105.5},{9.4,-17,98.8},{15.5,-16.5,86.5},{31,-19,82.8},{48.5,-15,72},{65.5,-17,41.5},{69.5,-21,10},{70,-22,-10},{69.5,-23,-27},{50.5,-32,-60.5},{0,-31,-82}}},
         // tip of the nose, cheek bone, ear lobe
-        {{{0,-31.5,122},{6,-31,119},{14.5,-31,107},{20,-30,91},{34,-33,83.5},{52,-31,70},{66,-31,41},{68.5,-36,9},{68.5,-38,-8},{67.5,-36,-24},{49,-50,-59},{0,-49,-74}}},
+        {{{0,-31.5,119.5},{6.2,-31,116.6},{14.6,-31.5,105.5},{20,-30,91},{34,-33,84.5},{52,-31,70.5},{66,-31,41},{68.5,-37,9},{68.3,-39,-8},{67,-37,-24},{49,-50,-59},{0,-49,-74}}},
         // under the nose
-        {{{0,-39,117},{5,-38.8,115.5},{14.8,-38.5,105.5},{21.5,-39,91.5},{36,-46,83},{54,-44,67},{65,-43,38},{66.5,-45,7},{66,-48,-10},{63,-48,-26},{47,-62,-56},{0,-62,-68}}},
+        {{{0,-39.3,113.2},{5,-38.9,112.2},{15,-38.4,104},{21.5,-39,91.8},{36,-46,84.2},{54,-44,67.5},{65,-43,38},{66.3,-46,7},{65.8,-49,-10},{63,-49,-26},{47,-62,-56},{0,-62,-68}}},
         // subnasale
-        {{{0,-43,104.5},{6.5,-43,103.5},{13.5,-42.5,98.5},{22.5,-47,93},{38,-57,82},{54,-55,64.5},{64,-54,36},{64.5,-52,5},{63.5,-56,-11},{60.5,-58,-26},{45,-73,-53.5},{0,-74,-63}}},
+        {{{0,-43,104.3},{6.5,-43,103.3},{13.5,-42.5,98.5},{22.5,-47,92.8},{37.5,-57,83.4},{53.5,-55,65},{63.5,-54,36},{64,-53,5},{63,-57,-11},{60,-58,-26},{45,-73,-53.5},{0,-74,-63}}},
         // mouth
-        {{{0,-65,105},{7,-65,104},{18,-65,98},{34.5,-65,87},{45,-67,78.5},{55,-66,61},{62.5,-65,34},{62,-59,3},{61,-64,-12},{58.5,-68,-26},{44,-84,-52},{0,-86,-60}}},
+        {{{0,-65,105},{7,-65,104},{18,-65,98},{34,-65.5,84.6},{44,-67.5,77.5},{53.5,-66,61},{61,-65,34},{60.5,-60,3},{60,-65,-12},{57.5,-68,-26},{44,-84,-52},{0,-86,-60}}},
         // mentolabial groove
-        {{{0,-84,97},{7,-84.5,96.5},{15,-85,94},{27,-84.5,87.5},{40,-80,78},{52,-77,58},{60,-75,31},{59.5,-66,1},{58.5,-72,-13},{57,-78,-26},{43,-96,-51},{0,-97,-58.5}}},
+        {{{0,-84,96.2},{7,-84.5,95.6},{15,-85,92.8},{26.5,-84.5,87},{38.5,-80.5,77.6},{49.5,-77,58},{57.5,-75,31},{57.5,-67,1},{57,-73,-13},{55.5,-78,-26},{43,-96,-51},{0,-97,-58.5}}},
         // pogonion
-        {{{0,-98,99},{7.5,-98,98.5},{15,-98,95.5},{24.5,-97,88},{37,-93,75},{48.5,-88,55},{57,-84,28},{57.5,-73,-1},{57,-81,-14},{56,-89,-26},{42.5,-108,-51},{0,-109,-58}}},
+        {{{0,-97.5,98.5},{7.5,-97.5,97.8},{15,-97.5,94.3},{24,-96.5,86.8},{35.5,-92.5,75},{46,-87.5,55},{54,-83,28},{55.5,-74,-1},{55.3,-82,-14},{54.5,-89,-26},{42.5,-108,-51},{0,-109,-58}}},
         // menton and the edge of the jaw
-        {{{0,-110,92},{7,-110,91.5},{14,-109,89},{22,-107,82.5},{34,-102,69},{44.5,-96.5,50},{53,-90,24},{55.5,-80,-4},{55.5,-91,-15},{55,-101,-26},{42,-121,-51},{0,-122,-58}}},
+        {{{0,-109.5,92.5},{7,-109.4,91.6},{14,-108.5,88.3},{22,-106.5,81.5},{33,-101.8,68.5},{43,-96,50},{50.8,-89,24},{53.5,-80,-4},{53.5,-91,-15},{53,-101,-26},{42,-121,-51},{0,-122,-58}}},
         // under the jaw
-        {{{0,-115,60},{7,-115,59},{13,-114.5,57},{20,-113,53},{30,-110,45},{40,-106,32},{48,-102,14},{53,-96,-6},{54.5,-106,-16},{54,-115,-27},{42,-133,-52},{0,-134,-59}}},
+        {{{0,-115,60},{7,-115,59},{13,-114.5,57},{20,-113,53},{29,-110,45},{38,-106,32},{46,-102,14},{51,-96,-6},{52.3,-106,-16},{51.5,-115,-27},{41,-133,-52},{0,-134,-59}}},
         // neck
-        {{{0,-128,43},{8,-128,42},{15,-128,40},{22,-128,37},{31,-127,30},{40,-126,19},{48,-124,5},{53,-122,-9},{55,-126,-19},{53.5,-132,-30},{42,-147,-54},{0,-148,-61}}},
+        {{{0,-128,43},{8,-128,42.3},{15,-128,40.3},{22,-128,37},{30.5,-127,30},{39,-126,19},{46,-124,5},{50.5,-122,-9},{52,-126,-19},{51,-132,-30},{40,-147,-54},{0,-148,-61}}},
         // rim of the neck
-        {{{0,-170,36},{9,-170,35},{17,-170,32.5},{25,-170,29},{34,-170,22},{43,-170,12},{50.5,-170,0},{56,-170,-13},{59,-171,-24},{57,-173,-38},{42,-176,-60},{0,-177,-67}}},
+        {{{0,-170,36},{8.5,-170,35.2},{16.5,-170,32.8},{24,-170,29},{33,-170,22},{41.5,-170,12},{48.5,-170,0},{53.5,-170,-13},{56,-171,-24},{54,-173,-38},{40,-176,-60},{0,-177,-67}}},
     }};
     // clang-format on
     return table;
@@ -85,8 +96,6 @@ const std::array<Row, rows>& face_rows() {
 constexpr std::array<double, columns> column_u{.500, .530, .560, .592, .640, .695, .750, .800, .838, .880, .935, .998};
 constexpr std::array<double, rows> row_v{.280, .345, .430, .470, .520, .570, .612, .645,
                                          .675, .735, .795, .835, .870, .905, .940, .995};
-
-using Block = std::vector<std::uint32_t>;
 
 struct Grid {
     std::array<std::array<std::uint32_t, columns>, rows> point{};
@@ -165,11 +174,11 @@ void add_crown(Cage& cage, const Grid& grid) {
             const double s = static_cast<double>(i) / width, t = static_cast<double>(j) / length;
             const Vec3 front = cage.points[point[i][0]], back = cage.points[point[i][length]];
             const Vec3 side = cage.points[point[width][j]];
-            const double x = s * side.x * (1 - .12 * (1 - s));
-            const double z = (1 - s) * (front.z + (back.z - front.z) * t) + s * side.z;
-            const double rho = std::sqrt(std::pow(x / 76.5, 2) + std::pow((z - 2) / 94, 2));
-            const double y = 25 + 86 * std::pow(std::max(0.0, 1 - std::pow(rho, 2.3)), 1 / 2.3);
-            point[i][j] = add_point(cage, {x, y, z});
+            // A flat guess, pushed out to the cranium along the ray from its centre.
+            const Vec3 guess{s * side.x * (1 - .1 * (1 - s)), side.y + 22 * (1 - s * s) * 4 * t * (1 - t) + 1,
+                             (1 - s) * (front.z + (back.z - front.z) * t) + s * side.z};
+            const Vec3 p = skull_centre + (guess - skull_centre) / skull_level(guess);
+            point[i][j] = add_point(cage, {i == 0 ? 0.0 : p.x, p.y, p.z});
         }
     for (std::size_t j = 0; j < length; ++j)
         for (std::size_t i = 0; i < width; ++i)
@@ -191,15 +200,16 @@ std::vector<std::uint32_t> add_points(Cage& cage, const std::vector<Vec3>& point
     return ids;
 }
 
-Loop add_strip(Cage& cage, const Loop& outer, const std::vector<Vec3>& points, const std::vector<Uv>& uvs, int count) {
-    const Loop inner{add_points(cage, points), uvs, outer.closed};
+Loop add_strip(Cage& cage, const Loop& outer, const Inset& inset) {
+    const Loop inner{add_points(cage, inset.points), inset.uvs, outer.closed};
     const std::size_t n = outer.points.size();
     for (std::size_t i = 0; i < (outer.closed ? n : n - 1); ++i) {
         const std::size_t j = (i + 1) % n;
         cage.quads.push_back({{outer.points[i], inner.points[i], inner.points[j], outer.points[j]},
-                              {outer.uvs[i], inner.uvs[i], inner.uvs[j], outer.uvs[j]}});
+                              {outer.uvs[i], inner.uvs[i], inner.uvs[j], outer.uvs[j]},
+                              inset.region});
     }
-    cage.counts.push_back({outer.points[0], inner.points[0], count});
+    cage.counts.push_back({outer.points[0], inner.points[0], inset.count});
     return inner;
 }
 
@@ -215,12 +225,11 @@ Cage head_cage() {
     for (std::size_t r = 0; r < rows; ++r)
         cage.rings["row" + std::to_string(r)].assign(grid.point[r].begin(), grid.point[r].end());
     add_crown(cage, grid);
-    // Loops of 32 round the eye: its rows and columns are cut finer than the rest.
-    cage.counts.push_back({grid.point[2][3], grid.point[2][4], 4});
-    cage.counts.push_back({grid.point[2][4], grid.point[2][5], 4});
-    cage.counts.push_back({grid.point[3][2], grid.point[4][2], 4});
-    cage.counts.push_back({grid.point[4][2], grid.point[5][2], 4});
-    add_eye(cage, hole_loop(grid, eye_hole));
+    // Loops of 32 round the eye: the strips that end at it are cut finer than the rest.
+    const Loop orbit = hole_loop(grid, eye_hole);
+    for (std::size_t i = 0; i < orbit.points.size(); ++i)
+        cage.counts.push_back({orbit.points[i], orbit.points[(i + 1) % orbit.points.size()], 4});
+    add_eye(cage, orbit);
     add_mouth(cage, hole_loop(grid, mouth_hole));
     add_ear(cage, hole_loop(grid, ear_hole));
     add_nostril(cage, hole_loop(grid, nostril_hole));

@@ -16,8 +16,16 @@ struct Loop {
     bool closed = true;  ///< false for the half loops round the mouth, whose ends lie at the midline
 };
 
-/// Joins a new loop inside `outer` by a strip of quads that will be `count` quads wide.
-Loop add_strip(Cage& cage, const Loop& outer, const std::vector<Vec3>& points, const std::vector<Uv>& uvs, int count);
+/// A loop to be made inside another.
+struct Inset {
+    std::vector<Vec3> points;
+    std::vector<Uv> uvs;
+    int count = 1;  ///< how many quads wide the strip between the loops will be
+    Region region = Region::skin;
+};
+
+/// Joins a new loop inside `outer` by a strip of quads.
+Loop add_strip(Cage& cage, const Loop& outer, const Inset& inset);
 
 std::vector<Uv> shrunk(const std::vector<Uv>& uvs, const Uv& centre, double su, double sv);
 

@@ -289,7 +289,8 @@ struct Sampler {
             for (int i = 0; i < n; ++i)
                 out.surface.faces.push_back({{id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)},
                                              {uv(i, j), uv(i + 1, j), uv(i + 1, j + 1), uv(i, j + 1)},
-                                             0});
+                                             0,
+                                             q.region});
     }
 };
 

@@ -5,6 +5,8 @@
 // skin over the vermilion to the line where the lips touch, and behind it the bag of the inner mouth, closed at its
 // back.
 
+#include <string_view>
+
 #include "head_cage.hpp"
 
 namespace mien::samples {
@@ -20,10 +22,10 @@ struct Ring {
 // clang-format off
 const std::vector<Ring>& outer_rings() {
     static const std::vector<Ring> rings{
-        {"mouth.skin", .88, .74, 2, {{0,-50,105},{6,-50,105.3},{13,-50.5,102},{21.5,-54,96.5},{30,-65,90},{22,-79.5,93.5},{14,-80.5,97.5},{6.5,-80.5,99.5},{0,-80.5,100}}},
-        {"mouth.border", .78, .44, 2, {{0,-57.5,108},{5,-56.6,108.3},{12.5,-58.5,105},{19.5,-61.5,99.5},{25.8,-65.3,91.8},{19,-70.5,98},{12,-73.5,102.5},{6,-74.5,104.5},{0,-74.8,105}}},
-        {"mouth.vermilion", .72, .22, 2, {{0,-61.5,109},{5.2,-61,108.8},{12,-62,105.5},{18.8,-63.4,99.8},{25,-65.2,92},{18.3,-67.8,99},{11.8,-69.8,103.8},{5.8,-70.4,106},{0,-70.5,106.5}}},
-        {"mouth.contact", .68, 0, 2, {{0,-65,105.5},{5,-65,105},{11.5,-65,102.2},{18,-65,97.5},{24.2,-65.1,91},{18,-65,97.5},{11.5,-65,102.2},{5,-65,105},{0,-65,105.5}}},
+        {"mouth.skin", .88, .74, 2, {{0,-50,104.6},{5.6,-50,105.1},{13,-50.5,101.8},{21.5,-54,96},{29.5,-65,88.2},{21.5,-79.5,92.3},{14,-80.5,96.3},{6.5,-80.5,98.5},{0,-80.5,99}}},
+        {"mouth.border", .78, .44, 2, {{0,-57.6,107},{5,-56.4,107.4},{12.5,-58.3,104.3},{19.5,-61.4,98.8},{25.6,-65.2,91},{19,-70.8,97},{12,-73.9,101.2},{6,-74.9,103.2},{0,-75.1,103.6}}},
+        {"mouth.vermilion", .72, .22, 2, {{0,-61,108.4},{5.2,-60.6,108.2},{12,-61.6,105},{18.8,-63.3,99.2},{24.9,-65.1,91.4},{18.3,-67.9,98.6},{11.8,-70,103.6},{5.8,-70.7,105.8},{0,-70.8,106.2}}},
+        {"mouth.contact", .68, 0, 2, {{0,-65,105.3},{5,-65,104.8},{11.5,-65,101.9},{18,-65,97},{24.2,-65,90.6},{18,-65,97},{11.5,-65,101.9},{5,-65,104.8},{0,-65,105.3}}},
     };
     return rings;
 }
@@ -70,7 +72,8 @@ void close_throat(Cage& cage, const Loop& loop) {
     for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t i = 0; i < 2; ++i)
             cage.quads.push_back({{point[i][j], point[i][j + 1], point[i + 1][j + 1], point[i + 1][j]},
-                                  {uv[i][j], uv[i][j + 1], uv[i + 1][j + 1], uv[i + 1][j]}});
+                                  {uv[i][j], uv[i][j + 1], uv[i + 1][j + 1], uv[i + 1][j]},
+                                  Region::inner_mouth});
 }
 
 }  // namespace
@@ -80,12 +83,16 @@ void add_mouth(Cage& cage, const Loop& surround) {
     const Uv centre{surround.uvs[0].u, surround.uvs[4].v};
     Loop loop = surround;
     for (const Ring& ring : outer_rings()) {
-        loop = add_strip(cage, loop, ring.points, shrunk(surround.uvs, centre, ring.su, ring.sv), ring.count);
+        const bool lip =
+            std::string_view(ring.name) == "mouth.vermilion" || std::string_view(ring.name) == "mouth.contact";
+        loop = add_strip(cage, loop,
+                         {ring.points, shrunk(surround.uvs, centre, ring.su, ring.sv), ring.count,
+                          lip ? Region::lip : Region::skin});
         cage.rings[ring.name] = loop.points;
     }
     loop.uvs = island(1);
     for (const Ring& ring : inner_rings()) {
-        loop = add_strip(cage, loop, ring.points, island(ring.su), ring.count);
+        loop = add_strip(cage, loop, {ring.points, island(ring.su), ring.count, Region::inner_mouth});
         cage.rings[ring.name] = loop.points;
     }
     close_throat(cage, loop);

@@ -4,7 +4,9 @@
 #include "skin.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "eyeball.hpp"
 #include "head_cage.hpp"
@@ -50,11 +52,37 @@ void settle_midline(MirroredSurface& mesh) {
         if (mesh.mirror[v] >= v) set_mirrored(mesh, v, mesh.surface.positions[v]);
 }
 
-constexpr Colour skin_colour{.60, .36, .26}, lip_colour{.42, .15, .13}, mouth_colour{.30, .07, .07},
-    brow_colour{.10, .06, .04};
-
 Colour mix(const Colour& a, const Colour& b, double t) {
     return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), 1};
+}
+
+// By region: skin, lid margin, lip, inner mouth.
+constexpr std::array<Colour, 4> region_colours{{{.62, .37, .27}, {.55, .27, .22}, {.47, .18, .16}, {.28, .07, .07}}};
+constexpr Colour brow_colour{.13, .08, .05};
+
+// 1 in the middle of the left eyebrow, 0 off it: a band along an arch that tapers outwards.
+double brow_share(const Vec3& p) {
+    const double x = std::abs(p.x), t = (x - 11) / 40;
+    if (t < 0 || t > 1 || p.z < 40) return 0;
+    const double middle = 22.5 + 6.5 * std::sin(std::numbers::pi * std::pow(t, 1.15) * .8);
+    const double half_width = 3.8 - 2.2 * t;
+    const double ends = std::clamp(12 * t, 0.0, 1.0) * std::clamp(6 * (1 - t), 0.0, 1.0);
+    return .8 * ends * std::clamp(1.4 - std::abs(p.y - middle) / half_width, 0.0, 1.0);
+}
+
+// A vertex shows the mean of the regions round it, so that borders are soft.
+std::vector<Colour> colours_of(const Surface& skin) {
+    std::vector<Colour> sums(skin.positions.size(), Colour{0, 0, 0, 0});
+    for (const SurfaceFace& face : skin.faces)
+        for (const auto c : face.corners) {
+            const Colour& region = region_colours[static_cast<std::size_t>(face.region)];
+            sums[c] = {sums[c].r + region.r, sums[c].g + region.g, sums[c].b + region.b, sums[c].a + 1};
+        }
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        const double n = sums[v].a;
+        sums[v] = mix({sums[v].r / n, sums[v].g / n, sums[v].b / n, 1}, brow_colour, brow_share(skin.positions[v]));
+    }
+    return sums;
 }
 
 }  // namespace
@@ -68,7 +96,7 @@ Skin make_skin() {
     close_lips(skin, "mouth.behind");
     clear_eyeball(skin.mesh);
     skin.mesh.surface.materials = {{"skin", {1, 1, 1, 1}, 0.55}};
-    skin.mesh.surface.colours.assign(skin.mesh.surface.positions.size(), mix(skin_colour, lip_colour, 0));
+    skin.mesh.surface.colours = colours_of(skin.mesh.surface);
     return skin;
 }
 

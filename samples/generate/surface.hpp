@@ -27,6 +27,9 @@ struct Material {
     double roughness = 0.6;
 };
 
+/// What a face of the skin shows; it decides the vertex colours.
+enum class Region : std::uint8_t { skin, lid_margin, lip, inner_mouth };
+
 inline constexpr std::uint32_t no_vertex = 0xffffffffU;
 
 /// A quad, or a triangle whose fourth corner is `no_vertex`; counter-clockwise seen from outside.
@@ -34,6 +37,7 @@ struct SurfaceFace {
     std::array<std::uint32_t, 4> corners{};
     std::array<Uv, 4> uvs{};
     std::uint32_t material = 0;  ///< index into the surface's materials
+    Region region = Region::skin;
 };
 
 inline std::size_t corner_count(const SurfaceFace& face) {
