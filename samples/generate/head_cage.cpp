@@ -44,21 +44,22 @@ Vec3 on_skull(double azimuth_degrees, double y) {
     return {r * ray.x, y, skull_centre.z + r * ray.z};
 }
 
-Row skull_row(double y_front, double y_back) {
+Row skull_row(const std::array<double, columns>& heights) {
     Row row;
-    for (std::size_t c = 0; c < columns; ++c) {
-        const double k = static_cast<double>(c) / (columns - 1);
-        row[c] = on_skull(skull_azimuth[c], y_front + (y_back - y_front) * k);
-    }
+    for (std::size_t c = 0; c < columns; ++c) row[c] = on_skull(skull_azimuth[c], heights[c]);
     row.front().x = row.back().x = 0;
     return row;
 }
 
+// The crown's border dips at its four corners, where its quads would otherwise have straight angles.
+constexpr std::array<double, columns> crown_heights{94, 92.5, 89, 84, 89, 93, 93, 89, 84, 89, 92.5, 94};
+constexpr std::array<double, columns> forehead_heights{60, 60, 59.5, 59, 60, 61, 61, 60.5, 60, 61, 62, 62};
+
 const std::array<Row, rows>& face_rows() {
     // clang-format off
     static const std::array<Row, rows> table{{
-        skull_row(90, 90),
-        skull_row(60, 62),
+        skull_row(crown_heights),
+        skull_row(forehead_heights),
         // brow
         {{{0,25,98},{8,25.5,97.6},{16,27,95.8},{24,28.5,92.5},{36,29.5,87},{50,27,75.5},{62,27,50},{72,29,8},{74.5,30,-13},{73,30,-36},{50,30,-73},{0,30,-91.5}}},
         // nasion, upper orbit, top of the ear
@@ -66,19 +67,19 @@ const std::array<Row, rows>& face_rows() {
         // eye
         {{{0,-4,98},{4,-4,96.5},{7.6,-3.5,92},{10.8,-2,86.2},{31,0,82},{52,0,66},{64,-1,44},{70,-6,10},{71.5,-7,-11},{71.5,-8,-29},{53,-12,-66.8},{0,-12,-88.5}}},
         // lower orbit
-        {{{0,-17,107},{4.6,-17,105.5},{9.4,-17,98.8},{15.5,-16.5,86.5},{31,-19,82.8},{48.5,-15,72},{65.5,-17,41.5},{69.5,-21,10},{70,-22,-10},{69.5,-23,-27},{50.5,-32,-60.5},{0,-31,-82}}},
+        {{{0,-17,107},{4.6,-17,105.5},{8.8,-17.5,98.3},{15.5,-16.5,86.5},{31,-19,82.8},{48.5,-15,72},{65.5,-17,41.5},{69.5,-21,10},{70,-22,-10},{69.5,-23,-27},{50.5,-32,-60.5},{0,-31,-82}}},
         // tip of the nose, cheek bone, ear lobe
-        {{{0,-31.5,119.5},{6.2,-31,116.6},{14.6,-31.5,105.5},{20,-30,91},{34,-33,84.5},{52,-31,70.5},{66,-31,41},{68.5,-37,9},{68.3,-39,-8},{67,-37,-24},{49,-50,-59},{0,-49,-74}}},
+        {{{0,-31.5,119.5},{6.6,-30.5,116},{15.4,-32,104},{20,-30,91},{34,-33,84.5},{52,-31,70.5},{66,-31,41},{68.5,-37,9},{68.3,-39,-8},{67,-37,-24},{49,-50,-59},{0,-49,-74}}},
         // under the nose
         {{{0,-39.3,113.2},{5,-38.9,112.2},{15,-38.4,104},{21.5,-39,91.8},{36,-46,84.2},{54,-44,67.5},{65,-43,38},{66.3,-46,7},{65.8,-49,-10},{63,-49,-26},{47,-62,-56},{0,-62,-68}}},
         // subnasale
         {{{0,-43,104.3},{6.5,-43,103.3},{13.5,-42.5,98.5},{22.5,-47,92.8},{37.5,-57,83.4},{53.5,-55,65},{63.5,-54,36},{64,-53,5},{63,-57,-11},{60,-58,-26},{45,-73,-53.5},{0,-74,-63}}},
         // mouth
-        {{{0,-65,105},{7,-65,104},{18,-65,98},{34,-65.5,84.6},{44,-67.5,77.5},{53.5,-66,61},{61,-65,34},{60.5,-60,3},{60,-65,-12},{57.5,-68,-26},{44,-84,-52},{0,-86,-60}}},
+        {{{0,-65,105},{7,-65,104},{18,-65,98},{34,-65.5,84.6},{44,-67.5,77.5},{53.5,-66,62.3},{61,-65,34},{60.5,-60,3},{60,-65,-12},{57.5,-68,-26},{44,-84,-52},{0,-86,-60}}},
         // mentolabial groove
-        {{{0,-84,96.2},{7,-84.5,95.6},{15,-85,92.8},{26.5,-84.5,87},{38.5,-80.5,77.6},{49.5,-77,58},{57.5,-75,31},{57.5,-67,1},{57,-73,-13},{55.5,-78,-26},{43,-96,-51},{0,-97,-58.5}}},
+        {{{0,-84,96.2},{7,-84.5,95.6},{15,-85,92.8},{26.5,-84.5,87},{38.5,-80.5,77.6},{49.5,-77,59.8},{57.5,-75,31},{57.5,-67,1},{57,-73,-13},{55.5,-78,-26},{43,-96,-51},{0,-97,-58.5}}},
         // pogonion
-        {{{0,-97.5,98.5},{7.5,-97.5,97.8},{15,-97.5,94.3},{24,-96.5,86.8},{35.5,-92.5,75},{46,-87.5,55},{54,-83,28},{55.5,-74,-1},{55.3,-82,-14},{54.5,-89,-26},{42.5,-108,-51},{0,-109,-58}}},
+        {{{0,-97.5,98.5},{7.5,-97.5,97.8},{15,-97.5,94.3},{24,-96.5,86.8},{35.5,-92.5,75},{46,-87.5,56.3},{54,-83,28},{55.5,-74,-1},{55.3,-82,-14},{54.5,-89,-26},{42.5,-108,-51},{0,-109,-58}}},
         // menton and the edge of the jaw
         {{{0,-109.5,92.5},{7,-109.4,91.6},{14,-108.5,88.3},{22,-106.5,81.5},{33,-101.8,68.5},{43,-96,50},{50.8,-89,24},{53.5,-80,-4},{53.5,-91,-15},{53,-101,-26},{42,-121,-51},{0,-122,-58}}},
         // under the jaw
@@ -172,13 +173,15 @@ void add_crown(Cage& cage, const Grid& grid) {
     for (std::size_t j = 1; j < length; ++j)
         for (std::size_t i = 0; i < width; ++i) {
             const double s = static_cast<double>(i) / width, t = static_cast<double>(j) / length;
-            const Vec3 front = cage.points[point[i][0]], back = cage.points[point[i][length]];
-            const Vec3 side = cage.points[point[width][j]];
-            // A flat guess, pushed out to the cranium along the ray from its centre.
-            const Vec3 guess{s * side.x * (1 - .1 * (1 - s)), side.y + 22 * (1 - s * s) * 4 * t * (1 - t) + 1,
-                             (1 - s) * (front.z + (back.z - front.z) * t) + s * side.z};
-            const Vec3 p = skull_centre + (guess - skull_centre) / skull_level(guess);
-            point[i][j] = add_point(cage, {i == 0 ? 0.0 : p.x, p.y, p.z});
+            const auto border_at = [&](std::size_t k, std::size_t l) { return cage.points[point[k][l]]; };
+            // A Coons patch seen from above, lifted to the cranium.
+            const Vec3 p = s * border_at(width, j) + (1 - t) * border_at(i, 0) + t * border_at(i, length) -
+                           s * ((1 - t) * border_at(width, 0) + t * border_at(width, length));
+            const double y =
+                skull_centre.y +
+                skull_axes.y *
+                    std::pow(1 - std::pow(skull_level({p.x, skull_centre.y, p.z}), skull_round_up), 1 / skull_round_up);
+            point[i][j] = add_point(cage, {i == 0 ? 0.0 : p.x, y, p.z});
         }
     for (std::size_t j = 0; j < length; ++j)
         for (std::size_t i = 0; i < width; ++i)

@@ -159,8 +159,12 @@ int put_colours(Glb& glb, const Surface& part, const Primitive& p) {
 
 std::string put_primitive(Glb& glb, const Surface& part, const std::vector<Vec3>& normals, const Primitive& p,
                           std::size_t material) {
-    std::string text = fmt::format(R"({{"attributes":{{"POSITION":{},"NORMAL":{},"TEXCOORD_0":{})",
-                                   put_positions(glb, part, p), put_normals(glb, normals, p), put_uvs(glb, p));
+    // One after the other: the order in which a call evaluates its arguments differs between compilers.
+    const int positions = put_positions(glb, part, p);
+    const int normal = put_normals(glb, normals, p);
+    const int uvs = put_uvs(glb, p);
+    std::string text =
+        fmt::format(R"({{"attributes":{{"POSITION":{},"NORMAL":{},"TEXCOORD_0":{})", positions, normal, uvs);
     if (!part.colours.empty()) text += fmt::format(R"(,"COLOR_0":{})", put_colours(glb, part, p));
     const std::size_t start = glb.binary.size();
     for (const auto i : p.indices) glb.put(i);
