@@ -22,6 +22,7 @@ Vec3 ear_point(const Vec3& uvw) {
 
 std::vector<Vec3> in_ear_plane(const std::vector<Vec3>& points) {
     std::vector<Vec3> result;
+    result.reserve(points.size());
     for (const Vec3& p : points) result.push_back(ear_point(p));
     return result;
 }

@@ -199,12 +199,13 @@ std::uint32_t add_point(Cage& cage, const Vec3& p) {
 
 std::vector<std::uint32_t> add_points(Cage& cage, const std::vector<Vec3>& points) {
     std::vector<std::uint32_t> ids;
+    ids.reserve(points.size());
     for (const Vec3& p : points) ids.push_back(add_point(cage, p));
     return ids;
 }
 
 Loop add_strip(Cage& cage, const Loop& outer, const Inset& inset) {
-    const Loop inner{add_points(cage, inset.points), inset.uvs, outer.closed};
+    Loop inner{add_points(cage, inset.points), inset.uvs, outer.closed};
     const std::size_t n = outer.points.size();
     for (std::size_t i = 0; i < (outer.closed ? n : n - 1); ++i) {
         const std::size_t j = (i + 1) % n;
@@ -218,6 +219,7 @@ Loop add_strip(Cage& cage, const Loop& outer, const Inset& inset) {
 
 std::vector<Uv> shrunk(const std::vector<Uv>& uvs, const Uv& centre, double su, double sv) {
     std::vector<Uv> result;
+    result.reserve(uvs.size());
     for (const Uv& p : uvs) result.push_back({centre.u + su * (p.u - centre.u), centre.v + sv * (p.v - centre.v)});
     return result;
 }

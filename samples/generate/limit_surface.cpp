@@ -276,7 +276,9 @@ struct Sampler {
     }
 
     void add_faces(const CageQuad& q, const std::vector<std::uint32_t>& ids, int n, int m) {
-        const auto id = [&](int i, int j) { return ids[static_cast<std::size_t>(j * (n + 1) + i)]; };
+        const auto id = [&](int i, int j) {
+            return ids[static_cast<std::size_t>(j) * static_cast<std::size_t>(n + 1) + static_cast<std::size_t>(i)];
+        };
         const auto uv = [&](int i, int j) {
             const double s = static_cast<double>(i) / n, t = static_cast<double>(j) / m;
             const auto mix = [&](double a, double b, double c, double d) {

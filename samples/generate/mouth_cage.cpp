@@ -48,6 +48,7 @@ std::vector<Uv> island(double scale) {
     constexpr double du[9]{0, .35, .7, .93, 1, .93, .7, .35, 0};
     constexpr double dv[9]{-1, -.94, -.71, -.38, 0, .38, .71, .94, 1};
     std::vector<Uv> uvs;
+    uvs.reserve(9);
     for (int i = 0; i < 9; ++i) uvs.push_back({centre.u + .12 * scale * du[i], centre.v + .12 * scale * dv[i]});
     return uvs;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <tuple>
 
 #include "write_surfaces.hpp"
 
@@ -17,7 +18,9 @@ namespace {
 struct Corner {
     std::uint32_t vertex = 0;
     std::int64_t u = 0, v = 0;
-    auto operator<=>(const Corner&) const = default;
+    friend bool operator<(const Corner& a, const Corner& b) {
+        return std::tie(a.vertex, a.u, a.v) < std::tie(b.vertex, b.u, b.v);
+    }
 };
 
 struct Primitive {
@@ -183,7 +186,7 @@ std::string joined(const std::vector<std::string>& items) {
     return fmt::format("{}", fmt::join(items, ",\n"));
 }
 
-std::string container(std::string json, std::string binary) {
+std::string container(std::string json, const std::string& binary) {
     while (json.size() % 4 != 0) json.push_back(' ');
     Glb out;
     for (const std::size_t word : {std::size_t{0x46546C67}, std::size_t{2}, 28 + json.size() + binary.size(),
