@@ -15,6 +15,7 @@ import headers_compile_alone
 import headers_have_tests
 import includes_point_inward
 import layout_is_clang_format
+import links_lead_somewhere
 
 LICENCE = "// SPDX-License-Identifier: MIT\n// Copyright (c) 2026 the mien authors\n\n"
 
@@ -69,7 +70,7 @@ class Rules(unittest.TestCase):
 
     def test_a_header_that_needs_another_is_found(self):
         compiler = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++-14")
-        rule = lambda root: headers_compile_alone.complaints(root, compiler)
+        rule = lambda root: headers_compile_alone.complaints(root, compiler, self.root / "work")
         self.expect(rule)
         self.write("include/mien/a.hpp", "#pragma once\nstd::string name();\n")
         self.expect(rule, "include/mien/a.hpp")
@@ -102,6 +103,13 @@ class Rules(unittest.TestCase):
         self.expect(headers_have_tests.complaints)
         self.write("include/mien/io/a.hpp", "")
         self.expect(headers_have_tests.complaints, "tests/io/a_test.cpp")
+
+    def test_a_broken_link_is_found(self):
+        self.write("docs/a.md", "[b](../README.md#top) [c](https://example.org)")
+        self.write("README.md", "[a](docs/a.md)")
+        self.expect(links_lead_somewhere.complaints)
+        self.write("docs/a.md", "[b](b.md)")
+        self.expect(links_lead_somewhere.complaints, "docs/a.md", "b.md")
 
     @unittest.skipUnless(shutil.which(layout_is_clang_format.TOOL), "clang-format-14 is not installed")
     def test_another_layout_is_found(self):

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the mien authors
+"""Calling the program from a test: where it is, the sample it works on, and heads and takes beside the project."""
+import os
+import pathlib
+import subprocess
+
+MIEN = pathlib.Path(os.environ["MIEN"]).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SAMPLES = ROOT / "samples"
+SHARED = ROOT.parent / "shared" / "data"
+
+HEAD = SAMPLES / "head.glb"
+POINTS = SAMPLES / "head.points.json"
+TAKE = SAMPLES / "take.trc"
+MAP = SAMPLES / "markers.csv"
+
+
+def run(*arguments, cwd=None, **environment):
+    """Runs mien; gives back what subprocess gives, with text in stdout and stderr."""
+    return subprocess.run([MIEN, *map(str, arguments)], cwd=cwd, env={**os.environ, **environment},
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
+
+
+def first_rows(trc, rows):
+    """The text of a TRC file with only its first rows."""
+    lines = trc.read_text(encoding="utf-8").splitlines()
+    first = next(i for i, line in enumerate(lines) if line.split("\t")[0].strip().isdigit() and i > 2)
+    kept = lines[:first + rows]
+    names, values = kept[1].split("\t"), kept[2].split("\t")
+    for i, name in enumerate(names):
+        if name in ("NumFrames", "OrigNumFrames"):
+            values[i] = str(rows)
+    kept[2] = "\t".join(values)
+    return "\n".join(kept) + "\n"
