@@ -76,6 +76,11 @@ TEST(SamplePerformance, FirstRowIsCompleteAndLostSamplesAreShort) {
     EXPECT_GT(lost, 50U);
 }
 
+TEST(SamplePerformance, StartsAtRest) {
+    for (const std::string& marker : performance().take.points)
+        for (std::size_t r = 1; r < 15; ++r) ASSERT_EQ(at(r, marker), at(0, marker)) << marker;
+}
+
 TEST(SamplePerformance, HeadMarkersAreRigidAndTheHeadMoves) {
     for (const auto& [a, b] : {std::pair{"HeadTop", "HeadL"}, {"HeadTop", "HeadR"}, {"HeadL", "HeadR"}}) {
         const auto all = distances(a, b);
