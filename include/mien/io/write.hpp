@@ -16,7 +16,7 @@ namespace mien {
 struct WriteOptions {
     bool overwrite = false;  ///< replace a file that is there
     /// Called now and then with rows written and rows in all.
-    std::function<void(std::size_t done, std::size_t all)> progress;
+    std::function<void(std::size_t done, std::size_t all)> progress = {};
 };
 
 /// Writes bytes so that the path holds the old bytes or the new ones, never a part: to a temporary file beside it,
