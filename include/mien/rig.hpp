@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "mien/face.hpp"
+#include "mien/take.hpp"
 
 namespace mien {
 
@@ -60,5 +62,35 @@ struct Skin {
     double mean_error = 0;              ///< root mean square distance to what the rig gives over the take it was
     double max_error = 0;               ///< measured with, and the largest such distance, in the mesh's unit
 };
+
+/// Where the columns of a take land on a rig's points.
+struct TakeBinding {
+    std::vector<std::int32_t> columns;  ///< one per rig point: its column in the take, or -1: it keeps still
+    std::vector<std::string> missing;   ///< rig points that the take does not drive
+    std::vector<std::string> unused;    ///< take columns that the rig does not have
+};
+TakeBinding bind_take(const Rig& rig, const Take& take);
+
+/// Displacements of the rig's points in one row of a take that was retargeted to this face. A lost sample keeps its
+/// point at neutral for that row. `displacements`: one per rig point, filled.
+void displacements(const Rig& rig, const TakeBinding& binding, std::span<const Vec3> row,
+                   std::span<Vec3f> displacements) noexcept;
+
+/// The turn of an eyeball that keeps its centre: the shortest one that brings the rig point that aims it to where that
+/// point was displaced to. No turn without such a point, or when the point falls on the centre.
+Quaternion eyeball_turn(const Rig& rig, const Eyeball& eyeball, std::span<const Vec3f> displacements) noexcept;
+
+/// Joints of a skin of this rig: its points, the still joint, its eyeballs.
+inline std::size_t joint_count(const Rig& rig) {
+    return rig.points.size() + 1 + rig.eyeballs.size();
+}
+
+/// Where joint `joint` rests: at its feature point, at the origin (the still joint), at the centre of its eyeball.
+Vec3 joint_origin(const Rig& rig, std::size_t joint) noexcept;
+
+/// How far each joint of a skin moves and turns from its rest when the rig's points are displaced; a vertex p that
+/// hangs on joint j alone goes to origin_j + apply(pose_j, p - origin_j). A point that is constrained along an axis is
+/// carried there by the points near it, so its joint moves as its vertex does. `poses`: one per joint, filled.
+void joint_poses(const Rig& rig, std::span<const Vec3f> displacements, std::span<Pose> poses) noexcept;
 
 }  // namespace mien

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "mien/rig.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace mien {
+
+TakeBinding bind_take(const Rig& rig, const Take& take) {
+    TakeBinding binding;
+    for (const FeaturePoint& point : rig.points) {
+        const auto column = find_column(take, point.id);
+        binding.columns.push_back(column ? static_cast<std::int32_t>(*column) : -1);
+        if (!column) binding.missing.push_back(point.id);
+    }
+    std::copy_if(take.points.begin(), take.points.end(), std::back_inserter(binding.unused),
+                 [&](const std::string& id) { return !find_point(rig.points, id); });
+    return binding;
+}
+
+void displacements(const Rig& rig, const TakeBinding& binding, std::span<const Vec3> row,
+                   std::span<Vec3f> displacements) noexcept {
+    assert(displacements.size() == rig.points.size() && binding.columns.size() == rig.points.size());
+    for (std::size_t i = 0; i < rig.points.size(); ++i) {
+        const std::int32_t column = binding.columns[i];
+        const bool seen = column >= 0 && is_finite(row[static_cast<std::size_t>(column)]);
+        displacements[i] = seen ? to_float(row[static_cast<std::size_t>(column)] - rig.points[i].position) : Vec3f{};
+    }
+}
+
+Quaternion eyeball_turn(const Rig& rig, const Eyeball& eyeball, std::span<const Vec3f> displacements) noexcept {
+    if (!eyeball.point) return {};
+    const Vec3 from = rig.points[*eyeball.point].position - eyeball.centre;
+    const Vec3 to = from + to_double(displacements[*eyeball.point]);
+    // The half-way quaternion: (from x to, |from||to| + from.to), normalised. It vanishes for opposite directions.
+    const Vec3 axis = cross(from, to);
+    const double w = length(from) * length(to) + dot(from, to);
+    const double norm = std::sqrt(dot(axis, axis) + w * w);
+    if (!(norm > 1e-12 * dot(from, from))) return {};
+    return {axis.x / norm, axis.y / norm, axis.z / norm, w / norm};
+}
+
+Vec3 joint_origin(const Rig& rig, std::size_t joint) noexcept {
+    if (joint < rig.points.size()) return rig.points[joint].position;
+    if (joint == rig.points.size()) return {};
+    return rig.eyeballs[joint - rig.points.size() - 1].centre;
+}
+
+namespace {
+
+// Motion of a vertex by its row of the rig.
+Vec3 carried(const Rig& rig, std::uint32_t vertex, std::span<const Vec3f> displacements) noexcept {
+    Vec3 sum;
+    for (std::uint32_t e = rig.row_starts[vertex]; e < rig.row_starts[vertex + 1]; ++e) {
+        const Vec3 w = to_double(rig.weights[e]);
+        const Vec3 d = to_double(displacements[rig.row_points[e]]);
+        sum += {w.x * d.x, w.y * d.y, w.z * d.z};
+    }
+    return sum;
+}
+
+}  // namespace
+
+void joint_poses(const Rig& rig, std::span<const Vec3f> displacements, std::span<Pose> poses) noexcept {
+    assert(poses.size() == joint_count(rig) && displacements.size() == rig.points.size());
+    std::fill(poses.begin(), poses.end(), Pose{});
+    for (std::size_t i = 0; i < rig.points.size(); ++i) {
+        const Axes moves = rig.points[i].moves;
+        const Vec3 own = to_double(displacements[i]);
+        if (moves == Axes{}) {
+            poses[i].translation = own;
+            continue;
+        }
+        const Vec3 rest = carried(rig, rig.points[i].vertex, displacements);
+        poses[i].translation = {moves.x ? own.x : rest.x, moves.y ? own.y : rest.y, moves.z ? own.z : rest.z};
+    }
+    for (std::size_t e = 0; e < rig.eyeballs.size(); ++e)
+        poses[rig.points.size() + 1 + e].rotation = eyeball_turn(rig, rig.eyeballs[e], displacements);
+}
+
+}  // namespace mien

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "mien/rig.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mien {
+namespace {
+
+// Two points, the second constrained to x; a vertex 1 under it that point 0 carries halfway along y.
+Rig two_points() {
+    Rig rig;
+    rig.points = {{"8.1", 0, {0, 0, 0}, {}, 0}, {"2.1", 1, {2, 0, 0}, {true, false, false}, 0}};
+    rig.rest = {{0, 0, 0}, {2, 0, 0}};
+    rig.row_starts = {0, 1, 3};
+    rig.row_points = {0, 0, 1};
+    rig.weights = {{1, 1, 1}, {0, 0.5F, 0.25F}, {1, 0, 0}};
+    return rig;
+}
+
+Rig with_eyeball(std::optional<std::uint32_t> aim) {
+    Rig rig = two_points();
+    rig.points.push_back({"3.5", 0, {0, 0, 1}, {}, 0});
+    rig.eyeballs = {{"eye", {}, {0, 0, 0}, aim}};
+    return rig;
+}
+
+TEST(BindTake, finds_columns_by_id_and_lists_what_is_left_over) {
+    const Take take{{"9.1", "2.1"}, {0}, {{}, {}}, {}, "", false};
+    const TakeBinding binding = bind_take(two_points(), take);
+    EXPECT_EQ(binding.columns, (std::vector<std::int32_t>{-1, 1}));
+    EXPECT_EQ(binding.missing, std::vector<std::string>{"8.1"});
+    EXPECT_EQ(binding.unused, std::vector<std::string>{"9.1"});
+}
+
+TEST(Displacements, hold_a_lost_point_and_an_undriven_one_at_neutral) {
+    const Rig rig = two_points();
+    const Take take{{"2.1"}, {0, 1}, {{3, 1, 0}, lost_sample}, {}, "", false};
+    std::vector<Vec3f> moved(2, Vec3f{9, 9, 9});
+    displacements(rig, bind_take(rig, take), row(take, 0), moved);
+    EXPECT_EQ(moved, (std::vector<Vec3f>{{0, 0, 0}, {1, 1, 0}}));
+    displacements(rig, bind_take(rig, take), row(take, 1), moved);
+    EXPECT_EQ(moved, (std::vector<Vec3f>{{0, 0, 0}, {0, 0, 0}}));
+}
+
+TEST(JointPoses, move_free_points_as_told_and_constrained_ones_as_their_vertex) {
+    const Rig rig = two_points();
+    std::vector<Pose> poses(joint_count(rig), Pose{{}, {9, 9, 9}});
+    joint_poses(rig, std::vector<Vec3f>{{1, 2, 4}, {3, 7, 7}}, poses);
+    EXPECT_EQ(poses[0].translation, (Vec3{1, 2, 4}));
+    EXPECT_EQ(poses[1].translation, (Vec3{3, 1, 1}));  // y: half of 2, z: a quarter of 4
+    EXPECT_EQ(poses[2], Pose{});
+}
+
+TEST(JointPoses, turn_an_eyeball_so_that_it_looks_where_its_point_went) {
+    const Rig rig = with_eyeball(2);
+    std::vector<Pose> poses(joint_count(rig));
+    joint_poses(rig, std::vector<Vec3f>{{}, {}, {1, 0, 0}}, poses);
+    const Vec3 gaze = rotate(poses[4].rotation, {0, 0, 1});
+    EXPECT_NEAR(gaze.x, std::sqrt(0.5), 1e-12);
+    EXPECT_NEAR(gaze.y, 0, 1e-12);
+    EXPECT_NEAR(gaze.z, std::sqrt(0.5), 1e-12);
+    EXPECT_EQ(joint_origin(rig, 4), rig.eyeballs[0].centre);
+}
+
+TEST(EyeballTurn, is_none_without_a_point_or_where_no_shortest_turn_exists) {
+    const std::vector<Vec3f> back{{}, {}, {0, 0, -2}}, centre{{}, {}, {0, 0, -1}};
+    EXPECT_EQ(eyeball_turn(with_eyeball({}), with_eyeball({}).eyeballs[0], back), Quaternion{});
+    EXPECT_EQ(eyeball_turn(with_eyeball(2), with_eyeball(2).eyeballs[0], back), Quaternion{});
+    EXPECT_EQ(eyeball_turn(with_eyeball(2), with_eyeball(2).eyeballs[0], centre), Quaternion{});
+}
+
+}  // namespace
+}  // namespace mien
