@@ -46,6 +46,7 @@ Take rename_points(const Take& take, std::span<const Rename> names) {
     result.head = take.head;
     result.unit = take.unit;
     result.planar = take.planar;
+    result.repeated_rows = take.repeated_rows;
     result.samples.reserve(row_count(take) * kept.size());
     for (std::size_t r = 0; r < row_count(take); ++r)
         for (const std::size_t c : kept) result.samples.push_back(row(take, r)[c]);

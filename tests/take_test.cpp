@@ -21,10 +21,13 @@ TEST(Take, frame_rate_is_the_inverse_of_the_median_step) {
 
 TEST(Take, renaming_keeps_the_samples_of_the_columns_it_names) {
     const Rename names[] = {{"chin", "2.1"}, {"brow", ""}};
-    const Take renamed = rename_points(two_markers(), names);
+    Take take = two_markers();
+    take.repeated_rows = 1;
+    const Take renamed = rename_points(take, names);
     ASSERT_EQ(renamed.points, std::vector<std::string>{"2.1"});
     EXPECT_EQ(renamed.samples, (std::vector<Vec3>{{1, 2, 3}, {7, 8, 9}}));
     EXPECT_EQ(renamed.unit, "mm");
+    EXPECT_EQ(renamed.repeated_rows, 1U);
 }
 
 TEST(Take, renaming_two_columns_to_one_id_is_refused) {

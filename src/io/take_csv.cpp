@@ -43,10 +43,9 @@ std::optional<std::size_t> axis_of(std::string_view heading) {
     return axis;
 }
 
-[[noreturn]] void unknown_heading(const Lines& lines, std::string_view heading, std::size_t column) {
-    const bool semicolons = lines.line().find(';') != std::string_view::npos;
-    lines.fail(fmt::format("column {}: expected time, <point>.x, <point>.y or <point>.z{}, found {}", column + 1,
-                           semicolons ? " with commas, not semicolons, between them" : "", shown(heading)));
+void refuse_semicolons(const Lines& lines) {
+    if (lines.line().find(',') == std::string_view::npos && lines.line().find(';') != std::string_view::npos)
+        lines.fail(fmt::format("expected commas between columns, not semicolons, found {}", shown(lines.line())));
 }
 
 void place(const Lines& lines, std::string_view heading, std::size_t column, std::size_t& slot) {
@@ -61,7 +60,9 @@ void read_heading(const Lines& lines, std::string_view heading, std::size_t colu
                   Columns& columns, Take& take) {
     if (equal_but_case(heading, "time")) return place(lines, heading, column, columns.time);
     const std::optional<std::size_t> axis = axis_of(heading);
-    if (!axis) unknown_heading(lines, heading, column);
+    if (!axis)
+        lines.fail(fmt::format("column {}: expected time, <point>.x, <point>.y or <point>.z, found {}", column + 1,
+                               shown(heading)));
     const std::string point(heading.substr(0, heading.size() - 2));
     const auto [number, is_new] = numbers.try_emplace(point, take.points.size());
     if (is_new) {
@@ -101,6 +102,7 @@ void read_cells(const Lines& lines, Row& row) {
 
 Columns read_header(Lines& lines, Take& take) {
     if (!lines.next_filled()) throw Error("csv: expected a line with column names, found an empty file");
+    refuse_semicolons(lines);
     Row row;
     read_cells(lines, row);
     Columns columns;

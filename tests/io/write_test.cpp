@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "mien/io/write.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <stdexcept>
+#include <unistd.h>
+
+#include "io/text.hpp"
+
+#include "mien/error.hpp"
+
+namespace mien {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own for each test.
+class Write : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "mien-write-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] std::size_t entries() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+    static std::string content(const fs::path& path) {
+        std::ifstream in(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    fs::path folder_;
+};
+
+MeshSequence sequence(std::size_t rows) {
+    MeshSequence result;
+    result.mesh.positions.resize(3);
+    add_face(result.mesh, std::vector<std::uint32_t>{0, 1, 2});
+    result.times.resize(rows);
+    result.positions = [](std::size_t, std::span<Vec3f> positions) { positions[1] = {1, 0, 0}; };
+    return result;
+}
+
+MeshSequence broken() {
+    MeshSequence result = sequence(3);
+    result.positions = [](std::size_t row, std::span<Vec3f>) {
+        if (row == 1) throw std::runtime_error("row 1");
+    };
+    return result;
+}
+
+Error::Kind kind_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.kind();
+    }
+    ADD_FAILURE() << "expected Error";
+    return Error::Kind::input;
+}
+
+TEST_F(Write, an_existing_file_is_kept_unless_overwriting_is_asked_for) {
+    const fs::path path = folder_ / "a.bin";
+    write_file(path, as_bytes("old"));
+    EXPECT_EQ(kind_of([&] { write_file(path, as_bytes("new")); }), Error::Kind::access);
+    EXPECT_EQ(content(path), "old");
+    write_file(path, as_bytes("new"), {true, {}});
+    EXPECT_EQ(content(path), "new");
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Write, an_error_on_the_way_leaves_nothing_or_the_old_file) {
+    const fs::path path = folder_ / "a.mdd";
+    EXPECT_THROW(write(broken(), path), std::runtime_error);
+    EXPECT_EQ(entries(), 0U);
+    write_file(path, as_bytes("old"));
+    EXPECT_THROW(write(broken(), path, {true, {}}), std::runtime_error);
+    EXPECT_EQ(content(path), "old");
+    EXPECT_THROW(write(broken(), folder_ / "frames"), std::runtime_error);
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Write, places_that_cannot_be_written_are_errors_of_access) {
+    EXPECT_EQ(kind_of([&] { write_file(folder_ / "no" / "a.bin", as_bytes("x")); }), Error::Kind::access);
+    EXPECT_EQ(kind_of([&] { write_file(folder_, as_bytes("x"), {true, {}}); }), Error::Kind::access);
+    if (geteuid() == 0) return;  // root may write to a read-only folder
+    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_EQ(kind_of([&] { write_file(folder_ / "a.bin", as_bytes("x")); }), Error::Kind::access);
+    fs::permissions(folder_, fs::perms::owner_all);
+    EXPECT_EQ(entries(), 0U);
+}
+
+TEST_F(Write, the_extension_chooses_the_format_and_others_are_refused) {
+    const Take take{{"a"}, {0}, {{1, 2, 3}}, {}, "mm"};
+    write(take, folder_ / "a.CSV");
+    write(take, folder_ / "a.trc");
+    write(sequence(2), folder_ / "a.pc2");
+    EXPECT_EQ(content(folder_ / "a.CSV"), "time,a.x,a.y,a.z\n0,1,2,3\n");
+    EXPECT_TRUE(content(folder_ / "a.trc").starts_with("PathFileType"));
+    EXPECT_TRUE(content(folder_ / "a.pc2").starts_with("POINTCACHE2"));
+    EXPECT_EQ(kind_of([&] { write(take, folder_ / "a.mdd"); }), Error::Kind::input);
+    EXPECT_EQ(kind_of([&] { write(sequence(2), folder_ / "a.trk"); }), Error::Kind::input);
+    EXPECT_EQ(entries(), 3U);
+}
+
+TEST_F(Write, a_folder_holds_one_obj_a_row_and_tells_its_progress) {
+    std::vector<std::size_t> told;
+    write(sequence(2), folder_ / "frames", {false, [&](std::size_t done, std::size_t all) { told = {done, all}; }});
+    EXPECT_EQ(told, (std::vector<std::size_t>{2, 2}));
+    EXPECT_THAT(content(folder_ / "frames" / "frame_000002.obj"), testing::HasSubstr("v 1 0 0\n"));
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Write, only_a_folder_of_frames_is_replaced) {
+    const fs::path frames = folder_ / "frames";
+    write(sequence(3), frames);
+    EXPECT_EQ(kind_of([&] { write(sequence(1), frames); }), Error::Kind::access);
+    write(sequence(1), frames, {true, {}});
+    EXPECT_FALSE(fs::exists(frames / "frame_000002.obj"));
+    write_file(frames / "letter.txt", as_bytes("x"));
+    EXPECT_EQ(kind_of([&] { write(sequence(1), frames, {true, {}}); }), Error::Kind::access);
+    EXPECT_EQ(content(frames / "letter.txt"), "x");
+    EXPECT_EQ(entries(), 1U);
+}
+
+}  // namespace
+}  // namespace mien
