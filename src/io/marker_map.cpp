@@ -51,6 +51,7 @@ std::vector<Rename> read_json(std::span<const std::byte> bytes) {
         if (!id.is_string() && !id.is_null())
             throw Error(fmt::format("marker map {}: expected the id of a feature point in quotes, or null, found {}",
                                     json_pointer({"markers", marker}), shown_json(id)));
+        if (marker.empty()) throw Error("marker map /markers/: expected the name of a marker, found nothing");
         names.push_back({marker, id.is_null() ? std::string() : id.get<std::string>()});
     }
     return names;

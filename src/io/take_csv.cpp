@@ -64,6 +64,9 @@ void read_heading(const Lines& lines, std::string_view heading, std::size_t colu
         lines.fail(fmt::format("column {}: expected time, <point>.x, <point>.y or <point>.z, found {}", column + 1,
                                shown(heading)));
     const std::string point(heading.substr(0, heading.size() - 2));
+    if (!is_printable_name(point))
+        lines.fail(fmt::format("column {}: expected the name of a point on one line without tabs, found {}", column + 1,
+                               shown(point)));
     const auto [number, is_new] = numbers.try_emplace(point, take.points.size());
     if (is_new) {
         take.points.push_back(point);

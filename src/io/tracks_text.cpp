@@ -69,9 +69,13 @@ void check_seen(const Take& take, std::string_view format) {
                                 take.times.size()));
 }
 
+bool is_printable_name(std::string_view name) {
+    return !name.empty() && trimmed(name) == name && name.find_first_of("\t\r\n") == std::string_view::npos;
+}
+
 void check_printable(const Take& take, std::string_view format) {
     for (const std::string& name : take.points)
-        if (name.empty() || trimmed(name) != name || name.find_first_of("\t\r\n") != std::string::npos)
+        if (!is_printable_name(name))
             throw Error(fmt::format("{}: expected the name of a point on one line without tabs, found {}", format,
                                     shown(name)));
 }
@@ -79,7 +83,8 @@ void check_printable(const Take& take, std::string_view format) {
 void check_names(const Lines& lines, const Take& take) {
     std::set<std::string_view> names;
     for (const std::string& name : take.points) {
-        if (name.empty()) lines.fail("expected the name of a point, found nothing");
+        if (!is_printable_name(name))
+            lines.fail(fmt::format("expected the name of a point on one line without tabs, found {}", shown(name)));
         if (!names.insert(name).second)
             lines.fail(fmt::format("expected each point once, found {} twice", shown(name)));
     }

@@ -31,10 +31,14 @@ void begin_row(const Lines& lines, std::string_view cell, Take& take);
 /// Throws Error when the take has no row, or points but no sample that was seen.
 void check_seen(const Take& take, std::string_view format);
 
+/// Whether a name can stand in a line of text and be read back: not empty, no blanks at its ends, no tab, no end of a
+/// line.
+bool is_printable_name(std::string_view name);
+
 /// Throws Error when the take's names cannot stand in a line of text: one holds a tab or the end of a line.
 void check_printable(const Take& take, std::string_view format);
 
-/// Throws Error when a name comes twice or is empty.
+/// Throws Error when a name comes twice, is empty or could not be written again.
 void check_names(const Lines& lines, const Take& take);
 
 }  // namespace mien

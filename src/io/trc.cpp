@@ -157,10 +157,15 @@ Take parse_trc(std::span<const std::byte> bytes) {
 
 namespace {
 
-// A take without two rows has no rate of its own; the header needs one above zero.
+// A take without two rows, or with times too close, has no rate of its own; the header needs a number above zero.
 double header_rate(const Take& take) {
     const double rate = frame_rate(take);
-    return rate > 0 ? rate : 1;
+    return rate > 0 && std::isfinite(rate) ? rate : 1;
+}
+
+void check_unit(const Take& take) {
+    if (!take.unit.empty() && take.unit != "mm" && take.unit != "cm" && take.unit != "m")
+        throw Error(fmt::format("trc: expected mm, cm or m as the unit, found {}", shown(take.unit)));
 }
 
 void append_header(std::string& text, const Take& take) {
@@ -181,6 +186,7 @@ void append_header(std::string& text, const Take& take) {
 
 std::string format_trc(const Take& take) {
     check_printable(take, "trc");
+    check_unit(take);
     std::string text;
     append_header(text, take);
     for (std::size_t r = 0; r < row_count(take); ++r) {

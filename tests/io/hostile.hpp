@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,9 +17,9 @@
 #include <string>
 #include <string_view>
 
+#include "io/promise.hpp"
+
 #include "mien/error.hpp"
-#include "mien/mesh.hpp"
-#include "mien/take.hpp"
 
 namespace mien::hostile {
 
@@ -59,33 +58,6 @@ std::string refusal(const Parse& parse, std::string_view text) {
         return error.what();
     }
     return {};
-}
-
-/// Whether the promise of every reader holds for this mesh.
-inline bool keeps_promise(const Mesh& mesh) {
-    const auto in_range = [&](std::uint32_t v) { return v < mesh.positions.size(); };
-    const auto uv_finite = [](const Vec2f& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); };
-    bool good = mesh.face_starts.front() == 0 && mesh.face_starts.back() == mesh.face_vertices.size();
-    for (std::size_t f = 0; f < face_count(mesh); ++f)
-        good = good && mesh.face_starts[f] + 3 <= mesh.face_starts[f + 1];
-    for (const Part& part : mesh.parts)
-        good = good && std::uint64_t{part.first_vertex} + part.vertex_count <= mesh.positions.size() &&
-               std::uint64_t{part.first_face} + part.face_count <= face_count(mesh);
-    good = good && (mesh.corner_uvs.empty() || mesh.corner_uvs.size() == mesh.face_vertices.size());
-    return good && std::all_of(mesh.face_vertices.begin(), mesh.face_vertices.end(), in_range) &&
-           std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite<float>) &&
-           std::all_of(mesh.corner_uvs.begin(), mesh.corner_uvs.end(), uv_finite);
-}
-
-/// Times rise; a sample is finite or lost as a whole.
-inline bool keeps_promise(const Take& take) {
-    const auto whole = [](const Vec3& p) {
-        return is_finite(p) || (std::isnan(p.x) && std::isnan(p.y) && std::isnan(p.z));
-    };
-    bool good = take.samples.size() == take.times.size() * take.points.size() && !take.times.empty();
-    for (std::size_t r = 0; r < take.times.size(); ++r)
-        good = good && std::isfinite(take.times[r]) && (r == 0 || take.times[r - 1] < take.times[r]);
-    return good && std::all_of(take.samples.begin(), take.samples.end(), whole);
 }
 
 /// Every prefix of the text, and the text with every byte one up, one down, 0 and 255: refused or as promised.

@@ -21,6 +21,7 @@ TEST(MarkerMap, refuses_what_is_no_map) {
     EXPECT_THAT(refusal("chin,2.1\nchin,2.2\n"), HasSubstr("marker map line 2: expected each marker once"));
     EXPECT_THAT(refusal("chin\n"), HasSubstr("expected two cells"));
     EXPECT_THAT(refusal(",2.1\n"), HasSubstr("the name of a marker"));
+    EXPECT_THAT(refusal("{\"markers\": {\"\": null}}"), HasSubstr("the name of a marker"));
     EXPECT_THAT(refusal("{}"), HasSubstr("/markers"));
     EXPECT_THAT(refusal("{\"markers\": {\"chin\": 2.1}}"),
                 HasSubstr("/markers/chin: expected the id of a feature point in quotes"));

@@ -28,6 +28,7 @@ TEST(TakeCsv, refuses_what_breaks_its_promise_and_names_the_place) {
     EXPECT_THAT(refusal("0,1,2\n"), HasSubstr("csv line 1: column 1: expected time"));
     EXPECT_THAT(refusal("time;a_x;a_y\n"), HasSubstr("not semicolons"));
     EXPECT_THAT(refusal("time\n0\n"), HasSubstr("expected columns <point>.x"));
+    EXPECT_THAT(refusal("time,a .x,a .y\n0,1,2\n"), HasSubstr("on one line"));
     EXPECT_THAT(refusal("a.x,a.y\n"), HasSubstr("expected a column time"));
     EXPECT_THAT(refusal("time,a.x\n"), HasSubstr("expected a column y of point 'a'"));
     EXPECT_THAT(refusal("time,a.x,a.y,a.z,b.x,b.y\n"), HasSubstr("expected a column z of point 'b'"));

@@ -39,6 +39,7 @@ TEST(Trc, refuses_what_breaks_its_promise_and_names_the_line) {
     EXPECT_THAT(refusal(file("60\t60\t2\t3\tcm", names, rows)),
                 HasSubstr("expected 3 marker names as NumMarkers says, found 2"));
     EXPECT_THAT(refusal(file(facts, "chin\t\t\tchin\t\t", rows)), HasSubstr("'chin' twice"));
+    EXPECT_THAT(refusal(file(facts, "ch\rin\t\t\tbrow\t\t", rows)), HasSubstr("on one line"));
     EXPECT_THAT(refusal(file(facts, names, "")), HasSubstr("expected rows of samples, found none"));
     EXPECT_THAT(refusal(file(facts, names, "1\t0\t1\t2\t3\n")), HasSubstr("expected 8 cells, found 5"));
     EXPECT_THAT(refusal(file(facts, names, "1\t0\t1\t2\t3\t4\t5\t6\t7\n")), HasSubstr("found '7' in column 9"));
@@ -92,6 +93,14 @@ TEST(Trc, what_is_written_reads_back_equal) {
     EXPECT_TRUE(std::isnan(again.samples[1].x));
     take.points[0] = "a\tb";
     EXPECT_THROW(format_trc(take), Error);
+    take.points[0] = "a b";
+    take.unit = "ft";
+    EXPECT_THROW(format_trc(take), Error);
+}
+
+TEST(Trc, times_too_close_for_a_rate_are_written_and_read_back) {
+    const Take take{{"a"}, {0, 1e-320}, {{1, 2, 3}, {4, 5, 6}}, {}, "mm"};
+    EXPECT_TRUE(hostile::equal(take, parse(format_trc(take))));
 }
 
 TEST(Trc, real_markers_read_with_their_counts) {

@@ -19,7 +19,7 @@ Take parse_trc(std::span<const std::byte> bytes);
 
 /// The same file back, with enough digits to read equal numbers. TRC has to state a unit: mm when the take states none.
 /// Head poses are not kept. A sample seen exactly at the origin is written "-0 0 0", since "0 0 0" means lost.
-/// Throws Error when a name holds a tab or the end of a line.
+/// Throws Error when a name holds a tab or the end of a line, or at another unit than mm, cm and m.
 std::string format_trc(const Take& take);
 
 }  // namespace mien
