@@ -16,25 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t deepest = 64;
-
-// Before the parser sees the text: nothing of it may cost memory or stack by the depth of a stranger's brackets.
-void check_depth(std::string_view text, std::string_view format) {
-    std::size_t depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string && c == '\\') ++i;
-        if (c == '"') in_string = !in_string;
-        if (in_string) continue;
-        if (c == '[' || c == '{') ++depth;
-        if ((c == ']' || c == '}') && depth > 0) --depth;
-        if (depth > deepest)
-            throw Error(
-                fmt::format("{} byte {}: expected at most {} levels of brackets, found more", format, i, deepest));
-    }
-}
-
 // What is open at a place of the text: an object with its keys so far, or an array.
 struct Open {
     std::set<std::string> keys;
@@ -71,8 +52,35 @@ struct KeyWatch {
 
 }  // namespace
 
+// Before a parser sees the text: nothing of it may cost memory or stack by the depth of a stranger's brackets.
+void check_json_depth(std::string_view text, std::string_view format) {
+    constexpr std::size_t deepest = 64;
+    std::size_t depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string && c == '\\') ++i;
+        if (c == '"') in_string = !in_string;
+        if (in_string) continue;
+        if (c == '[' || c == '{') ++depth;
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+        if (depth > deepest)
+            throw Error(
+                fmt::format("{} byte {}: expected at most {} levels of brackets, found more", format, i, deepest));
+    }
+}
+
+json parse_json(std::string_view text, std::string_view format) {
+    check_json_depth(text, format);
+    try {
+        return json::parse(text.begin(), text.end());
+    } catch (const json::exception& error) {
+        fail_parse(error, format);
+    }
+}
+
 JsonText parse_json_text(std::span<const std::byte> bytes, std::string_view format) {
-    check_depth(as_text(bytes), format);
+    check_json_depth(as_text(bytes), format);
     JsonText result;
     KeyWatch watch{format, result, {}};
     try {

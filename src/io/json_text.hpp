@@ -33,6 +33,12 @@ std::vector<std::string> keys_of(const JsonText& text, std::string_view parent);
 /// 64, a key given twice in one object, anything else than an object outside.
 JsonText parse_json_text(std::span<const std::byte> bytes, std::string_view format);
 
+/// Parses JSON that programs write: the same checks but for keys given twice, of which the last one holds.
+nlohmann::json parse_json(std::string_view text, std::string_view format);
+
+/// Throws Error if brackets are nested deeper than 64.
+void check_json_depth(std::string_view text, std::string_view format);
+
 /// A JSON pointer: "/points/8.4", with "~" and "/" in names escaped and shortened where a name is very long.
 std::string json_pointer(std::initializer_list<std::string_view> names);
 
