@@ -40,7 +40,8 @@ struct GapOptions {
 struct GapReport {
     std::size_t filled = 0, left = 0;  ///< samples
 };
-/// Fills gaps between seen samples with a cubic Hermite curve in time. Gaps at the ends stay open.
+/// Fills gaps between seen samples with a cubic Hermite curve in time; a track that is a cubic comes back exactly. A
+/// gap lasts from its first lost row to the next seen one. Gaps at the ends stay open.
 Take fill_gaps(const Take& take, const GapOptions& options, GapReport* report = nullptr);
 
 struct LowPassOptions {
@@ -55,7 +56,8 @@ struct NeutralOptions {
     std::size_t row = 0;   ///< first row of the neutral
     std::size_t rows = 1;  ///< rows averaged, lost samples left out
 };
-/// The neutral position of every column; a column lost in all of those rows takes its nearest seen sample in time.
+/// The neutral position of every column; a column lost in all of those rows takes its nearest seen sample in time, and
+/// one that is never seen stays lost.
 /// Throws Error if the rows are not in the take.
 std::vector<Vec3> neutral(const Take& take, const NeutralOptions& options = {});
 
