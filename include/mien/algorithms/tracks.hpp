@@ -40,8 +40,8 @@ struct GapOptions {
 struct GapReport {
     std::size_t filled = 0, left = 0;  ///< samples
 };
-/// Fills gaps between seen samples with a cubic Hermite curve in time; a track that is a cubic comes back exactly. A
-/// gap lasts from its first lost row to the next seen one. Gaps at the ends stay open.
+/// Fills gaps between seen samples with a cubic Hermite curve in time; with enough seen round the gap, a track that
+/// is a cubic comes back exactly. A gap lasts from its first lost row to the next seen one. Gaps at the ends stay open.
 Take fill_gaps(const Take& take, const GapOptions& options, GapReport* report = nullptr);
 
 struct LowPassOptions {
