@@ -29,6 +29,9 @@ def run(corpus, formats, command):
 
 def main(corpus, mien):
     mien = os.path.abspath(mien)
+    if not os.access(mien, os.X_OK):
+        print(f"malformed files: not checked, since the program {os.path.relpath(mien)} is not there; build it first")
+        return 1
     base = os.path.abspath(os.path.join(corpus, "degenerate", "00_base.obj"))
     bad = 0
     total = [0, 0, 0, 0]

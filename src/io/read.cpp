@@ -39,7 +39,8 @@ using Bytes = std::vector<std::byte>;
 
 // By chunks and not by a size asked for first, so that pipes can be read as well.
 Bytes read_bytes(const fs::path& path) {
-    if (fs::is_directory(path)) cannot_read(path, "it is a folder");
+    std::error_code unknown;
+    if (fs::is_directory(path, unknown)) cannot_read(path, "it is a folder");
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file) cannot_read(path, std::generic_category().message(errno));
     constexpr std::size_t chunk = std::size_t{1} << 20;

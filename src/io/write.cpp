@@ -43,6 +43,11 @@ bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, error));
 }
 
+bool is_folder(const fs::path& path) {
+    std::error_code error;
+    return fs::is_directory(path, error);
+}
+
 void refuse_existing(const fs::path& path, const WriteOptions& options) {
     if (!options.overwrite && is_there(path))
         cannot_write(path, "it is there already; overwriting it has to be asked for");
@@ -110,7 +115,7 @@ void fill_file(const fs::path& path, const fs::path& target, const Fill& fill) {
 template <class Fill>
 void write_by(const fs::path& path, const WriteOptions& options, const Fill& fill) {
     refuse_existing(path, options);
-    if (fs::is_directory(path)) cannot_write(path, "it is a folder");
+    if (is_folder(path)) cannot_write(path, "it is a folder");
     const Temporary temporary(path);
     fill_file(temporary.path(), path, fill);
     temporary.move_to_target(options);
@@ -141,18 +146,23 @@ std::string frame_name(std::size_t row) {
     return fmt::format("frame_{:06}.obj", row + 1);
 }
 
-bool is_frame(const fs::path& path) {
-    const std::string name = path.filename().string();
-    return name.starts_with("frame_") && name.ends_with(".obj");
+bool is_frame(const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    constexpr std::string_view front = "frame_", back = ".obj";
+    if (name.size() < front.size() + 6 + back.size() || !name.starts_with(front) || !name.ends_with(back)) return false;
+    std::error_code error;
+    return name.find_first_not_of("0123456789", front.size()) == name.size() - back.size() &&
+           fs::is_regular_file(entry.symlink_status(error));
 }
 
 // Only a folder that holds nothing but frames is replaced: a mistyped path must not cost a home directory.
 void refuse_other_folder(const fs::path& path) {
     if (!is_there(path)) return;
-    if (!fs::is_directory(path)) cannot_write(path, "it is a file; expected a folder of .obj frames or nothing");
-    const bool frames = std::all_of(fs::directory_iterator(path), fs::directory_iterator(),
-                                    [](const fs::directory_entry& entry) { return is_frame(entry.path()); });
-    if (!frames) cannot_write(path, "the folder holds other files than frame_*.obj");
+    if (!is_folder(path)) cannot_write(path, "it is a file; expected a folder of .obj frames or nothing");
+    std::error_code error;
+    for (auto entry = fs::directory_iterator(path, error); entry != fs::directory_iterator(); entry.increment(error))
+        if (!is_frame(*entry)) cannot_write(path, "the folder holds other files than frame_000001.obj and so on");
+    if (error) cannot_write(path, error.message());
 }
 
 void write_frames(const MeshSequence& sequence, const fs::path& folder, const fs::path& target) {

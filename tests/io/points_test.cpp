@@ -109,6 +109,12 @@ TEST(Points, what_is_written_reads_back_equal) {
     }
 }
 
+TEST(Points, numbers_do_not_depend_on_the_locale) {
+    const hostile::CommaLocale locale;
+    if (!locale.there) GTEST_SKIP() << "no locale with a decimal comma is installed";
+    EXPECT_EQ(parse("{\"2.1\": [0.25, 0, 0]}").points[0].snapped, 0.25);
+}
+
 TEST(Points, survives_every_prefix_and_every_changed_byte) {
     const Mesh mesh = shapes::grid(2, 2);
     hostile::sweep([&](std::span<const std::byte> bytes) { return parse_points(bytes, mesh); },

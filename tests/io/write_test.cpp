@@ -3,11 +3,13 @@
 
 #include "mien/io/write.hpp"
 
+#include <csignal>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "io/text.hpp"
@@ -91,11 +93,73 @@ TEST_F(Write, an_error_on_the_way_leaves_nothing_or_the_old_file) {
 TEST_F(Write, places_that_cannot_be_written_are_errors_of_access) {
     EXPECT_EQ(kind_of([&] { write_file(folder_ / "no" / "a.bin", as_bytes("x")); }), Error::Kind::access);
     EXPECT_EQ(kind_of([&] { write_file(folder_, as_bytes("x"), {true, {}}); }), Error::Kind::access);
-    if (geteuid() == 0) return;  // root may write to a read-only folder
-    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
-    EXPECT_EQ(kind_of([&] { write_file(folder_ / "a.bin", as_bytes("x")); }), Error::Kind::access);
-    fs::permissions(folder_, fs::perms::owner_all);
+    EXPECT_EQ(kind_of([&] { write_file(folder_ / std::string(300, 'x'), as_bytes("x")); }), Error::Kind::access);
+    EXPECT_EQ(kind_of([&] { write(sequence(1), folder_ / std::string(300, 'x')); }), Error::Kind::access);
     EXPECT_EQ(entries(), 0U);
+}
+
+// Somebody other than root while this lives: root may write to a read-only folder.
+class Ordinary {
+public:
+    explicit Ordinary(const fs::path& folder) {
+        constexpr uid_t nobody = 65534;
+        if (geteuid() == 0) there = chown(folder.c_str(), nobody, nobody) == 0 && seteuid(nobody) == 0;
+    }
+    Ordinary(const Ordinary&) = delete;
+    Ordinary& operator=(const Ordinary&) = delete;
+    ~Ordinary() { EXPECT_EQ(seteuid(getuid()), 0); }
+    bool there = true;
+};
+
+TEST_F(Write, a_read_only_folder_is_an_error_of_access_and_stays_as_it_was) {
+    write(sequence(2), folder_ / "frames");
+    write_file(folder_ / "a.bin", as_bytes("old"));
+    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+    {
+        const Ordinary user(folder_);
+        if (!user.there) GTEST_SKIP() << "root cannot become another user here";
+        EXPECT_EQ(kind_of([&] { write_file(folder_ / "b.bin", as_bytes("x")); }), Error::Kind::access);
+        EXPECT_EQ(kind_of([&] { write_file(folder_ / "a.bin", as_bytes("x"), {true, {}}); }), Error::Kind::access);
+        EXPECT_EQ(kind_of([&] { write(sequence(1), folder_ / "more"); }), Error::Kind::access);
+        EXPECT_EQ(kind_of([&] { write(sequence(1), folder_ / "frames", {true, {}}); }), Error::Kind::access);
+    }
+    fs::permissions(folder_, fs::perms::owner_all);
+    EXPECT_EQ(entries(), 2U);
+    EXPECT_EQ(content(folder_ / "a.bin"), "old");
+    EXPECT_TRUE(fs::exists(folder_ / "frames" / "frame_000002.obj"));
+}
+
+// A disk that is full after `most` bytes.
+class FullDisk {
+public:
+    explicit FullDisk(rlim_t most) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{most, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, signal_);
+    }
+
+private:
+    rlimit before_{};
+    void (*signal_)(int);
+};
+
+TEST_F(Write, a_disk_that_fills_up_leaves_nothing_or_the_old_file) {
+    const fs::path path = folder_ / "a.bin";
+    const std::string large(100000, 'x');
+    write_file(path, as_bytes("old"));
+    {
+        const FullDisk disk(5000);
+        EXPECT_EQ(kind_of([&] { write_file(path, as_bytes(large), {true, {}}); }), Error::Kind::access);
+        EXPECT_EQ(kind_of([&] { write(sequence(1000), folder_ / "a.mdd"); }), Error::Kind::access);
+    }
+    EXPECT_EQ(content(path), "old");
+    EXPECT_EQ(entries(), 1U);
 }
 
 TEST_F(Write, the_extension_chooses_the_format_and_others_are_refused) {
@@ -128,7 +192,16 @@ TEST_F(Write, only_a_folder_of_frames_is_replaced) {
     write_file(frames / "letter.txt", as_bytes("x"));
     EXPECT_EQ(kind_of([&] { write(sequence(1), frames, {true, {}}); }), Error::Kind::access);
     EXPECT_EQ(content(frames / "letter.txt"), "x");
-    EXPECT_EQ(entries(), 1U);
+    fs::remove(frames / "letter.txt");
+    write_file(frames / "frame_holiday.obj", as_bytes("x"));
+    EXPECT_EQ(kind_of([&] { write(sequence(1), frames, {true, {}}); }), Error::Kind::access);
+    fs::remove(frames / "frame_holiday.obj");
+    fs::create_directory(frames / "frame_000009.obj");
+    EXPECT_EQ(kind_of([&] { write(sequence(1), frames, {true, {}}); }), Error::Kind::access);
+    write_file(folder_ / "file", as_bytes("x"));
+    EXPECT_EQ(kind_of([&] { write(sequence(1), folder_ / "file", {true, {}}); }), Error::Kind::access);
+    EXPECT_EQ(content(folder_ / "file"), "x");
+    EXPECT_EQ(entries(), 2U);
 }
 
 }  // namespace
