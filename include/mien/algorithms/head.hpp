@@ -23,17 +23,19 @@ struct HeadOptions {
 };
 
 /// The columns of a take that are best taken as rigid on the skull, by feature-point id and by motion: ears (10.x),
-/// skull and hair line (11.x), nose bridge (9.12, 9.6, 9.7) and names that say head, when they keep their distances
-/// over the take; at last the columns whose mutual distances vary least. At least three, or empty when there are none.
+/// skull and hair line (11.x), nose bridge (9.12, 9.6, 9.7) and names with a word that begins with head, those of them
+/// that keep their distances over the take; where too few do, the columns that are left when those whose mutual
+/// distances vary most are taken away until the rest is rigid. At least three that are not on a line (two for a planar
+/// take), or empty when there are none.
 std::vector<std::string> head_markers(const Take& take);
 
 /// Takes the rigid motion of the head out of every point, so that what is left is the face, and keeps the pose per row
-/// in `Take::head`: captured = apply(head, returned).
+/// in `Take::head`: captured = apply(head, returned). Poses that the take has already are kept as their outer part.
 ///
-/// Lost markers are tolerated: least squares uses those seen in the row; where fewer than three are seen the pose is
-/// carried over from the rows around (interpolated, held at the ends). A planar take is turned and shifted in its
-/// plane. Throws Error if a named marker is not in the take, if fewer than three are given (two for a planar take), or
-/// if they lie on a line.
+/// Lost markers are tolerated: both methods use those seen in the row; where these do not tell a pose it is carried
+/// over from the rows around (interpolated, held at the ends). A planar take is turned and shifted in its plane. Throws
+/// Error if a named marker is not in the take, if fewer than three are given (two for a planar take), or if they lie on
+/// a line; if none are given and none are found; if the reference is not in the take.
 Take remove_head_motion(const Take& take, const HeadOptions& options = {});
 
 }  // namespace mien
