@@ -46,6 +46,7 @@ struct ObjFile {
     std::vector<std::uint32_t> corner_uvs;  // index into uvs per corner of the mesh
     Demand vertex_demand, uv_demand, normal_demand;
     std::string group;                                               // name that the next faces belong to
+    bool part_open = false;                                          // the last part is of that name
     bool face_seen = false;                                          // also one of fewer than three corners
     std::map<std::string, std::uint32_t, std::less<>> mesh_numbers;  // group name -> Part::mesh
     std::vector<std::uint32_t> runs;                                 // per Part::mesh: parts so far
@@ -111,6 +112,7 @@ void start_part(ObjFile& file) {
     part.primitive = file.runs[part.mesh]++;
     part.first_face = static_cast<std::uint32_t>(face_count(file.mesh));
     file.mesh.parts.push_back(std::move(part));
+    file.part_open = true;
 }
 
 void read_face(ObjFile& file, Words& words) {
@@ -119,13 +121,19 @@ void read_face(ObjFile& file, Words& words) {
     for (std::string_view word = words.next(); !word.empty() && word.front() != '#'; word = words.next())
         corners.push_back(read_corner(file, word));
     if (corners.size() < 3) return;
-    if (file.mesh.parts.empty() || file.mesh.parts.back().name != file.group) start_part(file);
+    if (!file.part_open) start_part(file);
     for (const Corner& corner : corners) {
         file.mesh.face_vertices.push_back(corner.vertex);
         file.corner_uvs.push_back(corner.uv);
     }
     file.mesh.face_starts.push_back(static_cast<std::uint32_t>(file.mesh.face_vertices.size()));
     ++file.mesh.parts.back().face_count;
+}
+
+// Names are compared here and not at every face, which would cost the length of the name each time.
+void read_group(ObjFile& file, std::string_view name) {
+    file.group = name;
+    file.part_open = !file.mesh.parts.empty() && file.mesh.parts.back().name == name;
 }
 
 void read_statement(ObjFile& file) {
@@ -135,7 +143,7 @@ void read_statement(ObjFile& file) {
     if (keyword == "vt") read_uv(file, words);
     if (keyword == "vn") ++file.normals;
     if (keyword == "f") read_face(file, words);
-    if (keyword == "g" || keyword == "o") file.group = trimmed(words.rest());
+    if (keyword == "g" || keyword == "o") read_group(file, trimmed(words.rest()));
 }
 
 // A backslash at the end of a line joins the next one to it.
@@ -181,7 +189,7 @@ void assign_vertices(Mesh& mesh, Part& part) {
 
 Mesh parse_obj(std::span<const std::byte> bytes) {
     check_text(bytes, "obj");
-    ObjFile file{Lines(as_text(bytes), "obj"), {}, {}, 0, {}, {}, {}, {}, {}, false, {}, {}};
+    ObjFile file{Lines(as_text(bytes), "obj"), {}, {}, 0, {}, {}, {}, {}, {}, false, false, {}, {}};
     read_statements(file);
     check_all(file);
     assign_uvs(file);

@@ -67,7 +67,8 @@ TEST(Obj, texture_v_runs_down_as_in_gltf_and_missing_ones_are_zero) {
 }
 
 TEST(Obj, runs_of_one_name_are_parts_and_their_vertices_reach_from_lowest_to_highest) {
-    const Mesh mesh = parse(square + "o head\nf 2 3 4\ng teeth\nf 1 2 3\nf 1 2 4\ng head\nusemtl x\nf 1 3 4\n");
+    const Mesh mesh =
+        parse(square + "o head\nf 2 3 4\ng teeth\nf 1 2 3\nf 1 2 4\ng empty\ng head\nusemtl x\nf 1 3 4\n");
     ASSERT_EQ(mesh.parts.size(), 3U);
     EXPECT_EQ(mesh.parts[0].name, "head");
     EXPECT_EQ(mesh.parts[0].first_vertex, 1U);
@@ -75,8 +76,15 @@ TEST(Obj, runs_of_one_name_are_parts_and_their_vertices_reach_from_lowest_to_hig
     EXPECT_EQ(mesh.parts[1].first_face, 1U);
     EXPECT_EQ(mesh.parts[1].face_count, 2U);
     EXPECT_EQ(mesh.parts[1].mesh, 1U);
+    EXPECT_EQ(mesh.parts[2].name, "head");
     EXPECT_EQ(mesh.parts[2].mesh, 0U);
     EXPECT_EQ(mesh.parts[2].primitive, 1U);
+}
+
+TEST(Obj, a_name_without_faces_does_not_split_a_part) {
+    const Mesh mesh = parse(square + "g a\nf 1 2 3\ng b\ng a\nf 2 3 4\n");
+    ASSERT_EQ(mesh.parts.size(), 1U);
+    EXPECT_EQ(mesh.parts[0].face_count, 2U);
 }
 
 TEST(Obj, passes_over_what_has_no_surface) {
