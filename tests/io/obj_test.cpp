@@ -25,7 +25,8 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST(Obj, refuses_what_breaks_its_promise_and_names_the_line) {
     EXPECT_THAT(refusal(square + "f 1 2 5\n"), HasSubstr("obj line 5: expected a vertex index from 1 to 4, found 5"));
-    EXPECT_THAT(refusal(square + "f 0 1 2\n"), HasSubstr("obj line 5"));
+    EXPECT_THAT(refusal(square + "f 0 1 2\n"),
+                HasSubstr("obj line 5: expected a vertex index from 1, or back from -1 to -4, found '0'"));
     EXPECT_THAT(refusal(square + "f -5 1 2\n"), HasSubstr("found '-5'"));
     EXPECT_THAT(refusal(square + "f 1 2 99999999999999999999\n"), HasSubstr("obj line 5"));
     EXPECT_THAT(refusal(square + "f 1/1 2/1 3/1\n"), HasSubstr("texture coordinate index"));

@@ -78,6 +78,38 @@ TEST(Ply, lists_longer_than_the_file_are_refused_before_memory_is_asked_for) {
                 HasSubstr("a list of at most 0 entries"));
 }
 
+TEST(Ply, lists_of_negative_length_are_refused) {
+    const std::string list = "list char int vertex_index";
+    EXPECT_THAT(refusal(header("ascii", "3", "1", list) + "0 0 0\n1 0 0\n0 1 0\n-1 0 1 2\n"), HasSubstr("found -1"));
+    EXPECT_THAT(refusal(header("binary_big_endian", "0", "1", list) + "\xff"), HasSubstr("found -1"));
+}
+
+TEST(Ply, a_binary_body_that_ends_early_is_refused) {
+    for (const bool big : {false, true}) {
+        const std::string whole = binary_triangle(big);
+        for (std::size_t size = whole.size() - 49; size < whole.size(); ++size)
+            EXPECT_THAT(refusal(whole.substr(0, size)), HasSubstr("ply ")) << size;
+    }
+}
+
+TEST(Ply, numbers_of_every_type_and_sign_read_in_both_byte_orders) {
+    for (const bool big : {false, true}) {
+        std::string text = "ply\nformat "s + (big ? "binary_big_endian" : "binary_little_endian") +
+                           " 1.0\nelement vertex 2\nproperty uchar a\nproperty char x\nproperty ushort b\n"
+                           "property short y\nproperty uint c\nproperty int z\nelement face 1\n"
+                           "property list ushort uint vertex_index\nproperty double d\nend_header\n";
+        for (int vertex = 0; vertex < 2; ++vertex)
+            text += bytes_of(std::uint8_t{200}, big) + bytes_of(std::int8_t{-2}, big) +
+                    bytes_of(std::uint16_t{60000}, big) + bytes_of(std::int16_t{-300}, big) +
+                    bytes_of(std::uint32_t{4000000000U}, big) + bytes_of(std::int32_t{-70000}, big);
+        text += bytes_of(std::uint16_t{3}, big);
+        for (const std::uint32_t index : {0U, 1U, 0U}) text += bytes_of(index, big);
+        const Mesh mesh = parse(text + bytes_of(0.1, big));
+        EXPECT_EQ(mesh.positions[1], (Vec3f{-2, -300, -70000}));
+        EXPECT_EQ(mesh.face_vertices, (std::vector<std::uint32_t>{0, 1, 0}));
+    }
+}
+
 TEST(Ply, elements_without_properties_cost_nothing) {
     const std::string text =
         "ply\nformat ascii 1.0\nelement nothing 1000000000000000000\n" + header("ascii", "3", "1").substr(21);
@@ -106,6 +138,14 @@ TEST(Ply, header_lines_may_end_in_cr_lf) {
     std::string text = header("ascii", "3", "1") + triangle;
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\r\n");
     EXPECT_EQ(face_count(parse(text)), 1U);
+    const std::string binary = binary_triangle(false);
+    const std::size_t body = binary.find("end_header\n") + 11;
+    for (const std::string end : {"\r\n", "\r"}) {
+        std::string head = binary.substr(0, body);
+        for (std::size_t at = 0; (at = head.find('\n', at)) != std::string::npos; at += end.size())
+            head.replace(at, 1, end);
+        EXPECT_EQ(parse(head + binary.substr(body)).positions[1].x, 1.5F);
+    }
 }
 
 TEST(Ply, other_elements_and_properties_of_every_type_are_skipped) {

@@ -38,6 +38,8 @@ TEST(Trc, refuses_what_breaks_its_promise_and_names_the_line) {
     EXPECT_THAT(refusal(file("60\t60\t2\t2\tparsec", names, rows)), HasSubstr("found 'parsec'"));
     EXPECT_THAT(refusal(file("60\t60\t2\t3\tcm", names, rows)),
                 HasSubstr("expected 3 marker names as NumMarkers says, found 2"));
+    EXPECT_THAT(refusal(file("60\t60\t2\t1\tcm", names, rows)), HasSubstr("expected 1 marker names"));
+    EXPECT_THAT(refusal(file(facts, names, "1\t0\t1\t2\t3\t4\t5\n")), HasSubstr("expected 8 cells, found 7"));
     EXPECT_THAT(refusal(file(facts, "chin\t\t\tchin\t\t", rows)), HasSubstr("'chin' twice"));
     EXPECT_THAT(refusal(file(facts, "ch\rin\t\t\tbrow\t\t", rows)), HasSubstr("on one line"));
     EXPECT_THAT(refusal(file(facts, names, "")), HasSubstr("expected rows of samples, found none"));
