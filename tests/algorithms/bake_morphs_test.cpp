@@ -26,7 +26,7 @@ using testing::IsEmpty;
 using Frames = std::vector<std::vector<Vec3f>>;
 
 // A sequence that plays displacements: one entry per row and vertex.
-MeshSequence playing(Mesh mesh, Frames moved) {
+MeshSequence playing(Mesh mesh, const Frames& moved) {
     std::vector<double> times;
     for (std::size_t r = 0; r < moved.size(); ++r) times.push_back(static_cast<double>(r) / 60);
     const std::vector<Vec3f> neutral = mesh.positions;
@@ -143,11 +143,38 @@ TEST(BakeMorphs, gives_back_motion_of_rank_k_with_k_targets) {
     }
 }
 
-TEST(BakeMorphs, gives_back_motion_longer_than_a_block_of_rows) {
-    const MeshSequence sequence = of_rank(6, 700);
+TEST(BakeMorphs, gives_back_motion_that_begins_late_in_a_long_sequence) {
+    MeshSequence sequence = of_rank(6, 700);
+    sequence.positions = [play = sequence.positions, neutral = sequence.mesh.positions](std::size_t row,
+                                                                                        std::span<Vec3f> positions) {
+        play(row, positions);
+        if (row < 400) std::copy(neutral.begin(), neutral.end(), positions.begin());
+    };
     const MorphTrack track = bake_morphs(sequence, {24, 0, 0});
     EXPECT_EQ(track.targets.size(), 6);
     EXPECT_LT(errors(track, sequence).max, 3e-6);
+}
+
+// 363 coordinates that have nothing to do with each other: more shapes than are kept from block to block.
+TEST(BakeMorphs, counts_what_was_dropped_between_blocks_as_error) {
+    std::uint32_t state = 1;
+    const auto noise = [&] { return static_cast<float>((state = state * 1664525U + 1013904223U) >> 8) / (1U << 24); };
+    Frames moved(600, std::vector<Vec3f>(121));
+    for (auto& row : moved)
+        for (Vec3f& d : row) d = {noise() - 0.5F, noise() - 0.5F, noise() - 0.5F};
+    const MeshSequence sequence = playing(shapes::grid(10, 10), moved);
+    const MorphTrack track = bake_morphs(sequence, {256, 0.1, 0});
+    EXPECT_EQ(track.targets.size(), 256);
+    EXPECT_GT(track.mean_error, 0.1 * std::sqrt(0.75));
+}
+
+TEST(BakeMorphs, takes_the_rounding_of_far_coordinates_for_no_motion) {
+    Mesh mesh = shapes::grid(10, 10);
+    for (Vec3f& p : mesh.positions) p += {1000, 1000, 1000};
+    Frames moved(30, std::vector<Vec3f>(121));
+    for (std::size_t r = 0; r < 30; ++r)
+        for (std::size_t v = 0; v < 121; ++v) moved[r][v] = to_float(0.01 * std::sin(0.3 * double(r)) * mode(0, v));
+    EXPECT_EQ(bake_morphs(playing(mesh, moved), {24, 0, 0}).targets.size(), 1);
 }
 
 TEST(BakeMorphs, gives_weights_whose_largest_is_one) {
