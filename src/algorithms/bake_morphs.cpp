@@ -37,6 +37,7 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Tile = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // as Rows lie in memory
 
 constexpr Index block_rows = 256;
 constexpr Index tile_rows = 64, tile_columns = 1024;
@@ -102,7 +103,7 @@ Matrix products(const Rows& rows, Index i, Index height, Index j, Index width) {
     Matrix sum = Matrix::Zero(height, width);
     for (Index c = 0; c < rows.cols(); c += tile_columns) {
         const Index n = std::min(tile_columns, rows.cols() - c);
-        const Matrix a = rows.block(i, c, height, n).cast<double>(), b = rows.block(j, c, width, n).cast<double>();
+        const Tile a = rows.block(i, c, height, n).cast<double>(), b = rows.block(j, c, width, n).cast<double>();
         sum.noalias() += a * b.transpose();
     }
     return sum;
@@ -137,7 +138,8 @@ void compress(Shapes& shapes, Index most) {
     const Index tiles = (shapes.rows.cols() + tile_columns - 1) / tile_columns;
     tbb::parallel_for(Index{0}, tiles, [&](Index tile) {
         const Index c = tile * tile_columns, n = std::min(tile_columns, shapes.rows.cols() - c);
-        const Matrix turned = U.transpose() * shapes.rows.middleCols(c, n).cast<double>();
+        const Tile whole = shapes.rows.middleCols(c, n).cast<double>();
+        const Tile turned = U.transpose() * whole;
         shapes.rows.block(0, c, kept, n) = turned.cast<float>();
     });
     shapes.rows.conservativeResize(kept, Eigen::NoChange);
