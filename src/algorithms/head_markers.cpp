@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
 #include <string_view>
 
 #include "algorithms/head.hpp"
@@ -19,9 +22,9 @@ namespace mien {
 
 namespace {
 
-// Head markers are columns whose distances vary, on average, by less than this part of the size of the whole take:
-// about a millimetre on a face. Real captures: upper face while only the jaw moves 0.3 %, moving brows 1 to 4 %.
-constexpr double rigid = 0.005;
+// Head markers are columns whose distances vary, on average, by less than this part of the size of the take: about 0.8
+// millimetres on a face. Of two real captures of 41 markers without any on the skull it leaves 23 and 27.
+constexpr double rigid = 0.003;
 
 bool is_letter(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0;
@@ -61,12 +64,8 @@ std::vector<std::size_t> well_seen(const Take& take, const std::vector<std::size
     return columns;
 }
 
-struct Spread {
-    double mean = 0, deviation = 0;
-};
-
-// Of the distance between two columns, over the rows where both are seen; 0 where that never happens.
-Spread distance_spread(const Take& take, const std::vector<std::size_t>& rows, std::size_t a, std::size_t b) {
+// Standard deviation of the distance between two columns over the rows where both are seen; 0 where that never happens.
+double distance_deviation(const Take& take, const std::vector<std::size_t>& rows, std::size_t a, std::size_t b) {
     double sum = 0, squares = 0, count = 0, first = -1;
     for (const std::size_t r : rows) {
         const double d = distance(row(take, r)[a], row(take, r)[b]);
@@ -76,41 +75,59 @@ Spread distance_spread(const Take& take, const std::vector<std::size_t>& rows, s
         squares += (d - first) * (d - first);
         ++count;
     }
-    if (count == 0) return {};
-    return {first + sum / count, std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)))};
+    return count > 0 ? std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count))) : 0;
 }
 
-// How much the distances between columns vary, as a part of the size of the set.
+// The widest that the take's points lie apart in a row: the diagonal of their box.
+double size_of(const Take& take, const std::vector<std::size_t>& rows) {
+    double size = 0;
+    for (const std::size_t r : rows) {
+        constexpr double far = std::numeric_limits<double>::infinity();
+        Vec3 low{far, far, far}, high{-far, -far, -far};
+        for (const Vec3& p : row(take, r)) {
+            if (!is_finite(p)) continue;
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+        if (low.x <= high.x) size = std::max(size, distance(low, high));
+    }
+    return size;
+}
+
+// Not more columns than the table of all pairs can hold at no cost, evenly chosen.
+std::vector<std::size_t> at_most(std::size_t most, const std::vector<std::size_t>& columns) {
+    const std::size_t step = (columns.size() + most - 1) / most;
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < columns.size(); i += step) chosen.push_back(columns[i]);
+    return chosen;
+}
+
+// How much the distance between any two of the columns varies.
 Eigen::MatrixXd variations(const Take& take, const std::vector<std::size_t>& rows,
                            const std::vector<std::size_t>& columns) {
     const auto n = static_cast<Eigen::Index>(columns.size());
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
-    double size = 0;
     for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < i; ++j) {
-            const Spread spread =
-                distance_spread(take, rows, columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
-            result(i, j) = result(j, i) = spread.deviation;
-            size = std::max(size, spread.mean);
-        }
-    return size > 0 ? Eigen::MatrixXd(result / size) : result;
+        for (Eigen::Index j = 0; j < i; ++j)
+            result(i, j) = result(j, i) = distance_deviation(take, rows, columns[static_cast<std::size_t>(i)],
+                                                             columns[static_cast<std::size_t>(j)]);
+    return result;
 }
 
-// Leaves out the column that varies most against the others until all of them are rigid. Indices into the table.
-std::vector<Eigen::Index> rigid_part(const Eigen::MatrixXd& variation, std::vector<Eigen::Index> kept) {
+// Leaves out the column that varies most against the others until none varies by more than `most` on average.
+std::vector<std::size_t> rigid_part(const Eigen::MatrixXd& variation, std::vector<std::size_t> columns, double most) {
+    std::vector<Eigen::Index> kept(columns.size());
+    std::iota(kept.begin(), kept.end(), Eigen::Index{0});
     while (kept.size() > 1) {
-        const auto sum = [&](Eigen::Index i) {
-            double total = 0;
-            for (const Eigen::Index j : kept) total += variation(i, j);
-            return total;
-        };
-        std::vector<double> sums;
-        for (const Eigen::Index i : kept) sums.push_back(sum(i));
+        std::vector<double> sums(kept.size(), 0);
+        for (std::size_t i = 0; i < kept.size(); ++i)
+            for (const Eigen::Index j : kept) sums[i] += variation(kept[i], j);
         const auto worst = std::max_element(sums.begin(), sums.end());
-        if (*worst <= rigid * static_cast<double>(kept.size() - 1)) break;
+        if (*worst <= most * static_cast<double>(kept.size() - 1)) break;
+        columns.erase(columns.begin() + (worst - sums.begin()));
         kept.erase(kept.begin() + (worst - sums.begin()));
     }
-    return kept;
+    return columns;
 }
 
 // Whether there is a row in which these columns tell where the head is.
@@ -127,20 +144,16 @@ bool ever_tell_a_pose(const Take& take, const std::vector<std::size_t>& rows, co
 
 std::vector<std::string> head_markers(const Take& take) {
     const std::vector<std::size_t> rows = some_rows(take);
-    const std::vector<std::size_t> columns = well_seen(take, rows);
-    const Eigen::MatrixXd variation = variations(take, rows, columns);
-    std::vector<Eigen::Index> all, named;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        all.push_back(static_cast<Eigen::Index>(i));
-        if (is_on_skull(take.points[columns[i]])) named.push_back(all.back());
-    }
-    for (const std::vector<Eigen::Index>& candidates : {named, all}) {
-        std::vector<std::size_t> kept;
-        for (const Eigen::Index i : rigid_part(variation, candidates))
-            kept.push_back(columns[static_cast<std::size_t>(i)]);
+    const std::vector<std::size_t> all = well_seen(take, rows);
+    std::vector<std::size_t> named;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(named),
+                 [&](std::size_t c) { return is_on_skull(take.points[c]); });
+    const double most = rigid * size_of(take, rows);
+    for (const std::vector<std::size_t>& candidates : {at_most(400, named), at_most(400, all)}) {
+        const std::vector<std::size_t> kept = rigid_part(variations(take, rows, candidates), candidates, most);
         if (!ever_tell_a_pose(take, rows, kept)) continue;
-        std::vector<std::string> names;
-        for (const std::size_t c : kept) names.push_back(take.points[c]);
+        std::vector<std::string> names(kept.size());
+        std::transform(kept.begin(), kept.end(), names.begin(), [&](std::size_t c) { return take.points[c]; });
         return names;
     }
     return {};

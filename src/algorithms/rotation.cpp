@@ -56,7 +56,7 @@ std::array<double, 3> spreads(std::span<const Vec3> points) {
 
 Quaternion best_rotation(std::span<const Vec3> from, std::span<const Vec3> to) {
     const Svd svd(covariance(from, to), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::Vector3d s = svd.singularValues();
+    const Eigen::Vector3d& s = svd.singularValues();
     if (!(s[0] > 0)) return {};
     if (s[1] > 1e-12 * s[0]) return quaternion(Eigen::Quaterniond(without_mirror(svd)));
     return quaternion(Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)));
