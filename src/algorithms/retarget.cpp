@@ -194,14 +194,14 @@ void fit_with_affine(Retarget& map) {
 }
 
 void check_residual(Retarget& map) {
-    double largest_coordinate = 0;
+    double cancelled = length(map.offset);
     for (std::size_t i = 0; i < map.points.size(); ++i) {
         const double miss = distance(retarget(map, map.source_neutral[i]), map.target_neutral[i]);
         if (!(miss <= map.residual)) map.residual = miss;
-        largest_coordinate = std::max(largest_coordinate, length(map.target_neutral[i]));
+        cancelled = std::max(cancelled, length(map.target_neutral[i]));
     }
-    // Rounding of coordinates far from the origin is not the solver's.
-    const double limit = 1e-6 * box_diagonal(map.target_neutral) + 1e-12 * largest_coordinate;
+    // What coordinates far from the origin lose by rounding is not the solver's.
+    const double limit = 1e-6 * box_diagonal(map.target_neutral) + 1e-12 * cancelled;
     if (!(map.residual <= limit))
         throw Error(fmt::format(
             "retarget: expected the map to meet the {} target points within {:g}, found a residual of {:g}; "

@@ -213,11 +213,23 @@ TEST(HeadMotion, where_too_few_are_seen_the_pose_runs_between_the_rows_around_an
 }
 
 TEST(HeadMotion, a_marker_that_jumps_onto_another_spoils_no_row) {
-    Take captured = moved(still_head());
-    for (std::size_t c : {1U, 4U}) row(captured, 9)[c] = row(captured, 9)[0];
-    for (const Method method : methods) {
-        const Take face = remove_head_motion(captured, {method, {"10.1", "10.2", "9.12"}});
-        for (const Vec3& p : face.samples) EXPECT_TRUE(is_finite(p));
+    for (const Take& clean : {moved(still_head()), moved_in_plane(flat(still_head()))}) {
+        Take captured = clean;
+        row(captured, 9)[1] = row(captured, 9)[0];
+        for (const Method method : methods) {
+            const Take face = remove_head_motion(captured, {method, {"10.1", "10.2", "11.4"}});
+            for (const Vec3& p : face.samples) EXPECT_TRUE(is_finite(p));
+        }
+    }
+}
+
+TEST(HeadMotion, markers_at_one_place_in_a_picture_tell_no_pose) {
+    Take captured = moved_in_plane(flat(still_head()));
+    row(captured, 9)[1] = row(captured, 9)[0];
+    for (const auto& markers : {std::vector<std::string>{"10.1", "10.2"}, {"10.1", "10.2", "11.4"}}) {
+        const Take face = remove_head_motion(captured, {Method::three_markers, markers});
+        const Quaternion before = face.head[8].rotation, after = face.head[10].rotation;
+        EXPECT_NEAR(face.head[9].rotation.z, 0.5 * (before.z + after.z), 1e-4);
     }
 }
 

@@ -227,6 +227,32 @@ TEST(Retarget, flat_faces_and_faces_on_a_line_map_to_themselves_also_off_the_pla
     }
 }
 
+TEST(Retarget, a_single_point_far_from_the_origin_moves_as_it_is) {
+    for (const Vec3& p : mapped(face_points(), [](const Vec3& p) { return p + Vec3{1e5, -3e4, 2e5}; })) {
+        const Take take = take_of({p});
+        const Take out = performed(take, face_with({1e-6 * p}));
+        EXPECT_LT(distance(out.samples[3], 1e-6 * p + (take.samples[3] - p)), 1e-9);
+    }
+}
+
+TEST(Retarget, points_on_a_line_turn_no_more_than_the_line_needs) {
+    const std::vector<Vec3> source{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
+    std::vector<Vec3> target{{0, 0, 0}, {1.2, 1.6, 0}, {3.6, 4.8, 0}};  // twice as long, turned about z
+    const Retarget map = fit_retarget(take_of(source, 1), face_with(target));
+    EXPECT_LT(distance(retarget(map, {1, 0, 1}), Vec3{1.2, 1.6, 2}), 1e-9);
+    EXPECT_LT(distance(retarget(map, {1, 1, 0}), Vec3{1.2 - 1.6, 1.6 + 1.2, 0}), 1e-9);
+}
+
+TEST(Retarget, depth_that_is_rounding_is_not_taken_for_a_slope) {
+    const std::vector<Vec3> nearly_flat = mapped(face_points(), [](const Vec3& p) {
+        return Vec3{p.x, p.y, 1e-7 * p.z};
+    });
+    const Retarget map = fit_retarget(take_of(nearly_flat, 1), face_with(face_points()));
+    const Vec3 step = retarget(map, nearly_flat[4] + Vec3{0, 0, 1}) - retarget(map, nearly_flat[4]);
+    EXPECT_LT(length(step), 10);
+    EXPECT_GT(length(step), 0.1);
+}
+
 TEST(Retarget, the_papers_form_does_not_map_a_face_to_itself) {
     const Take take = take_of(face_points());
     EXPECT_GT(largest_difference(performed(take, face_with(face_points()), Reading::paper).samples, take.samples),
@@ -342,6 +368,20 @@ TEST(Retarget, the_heads_poses_are_those_of_the_target) {
         EXPECT_LT(distance(apply(out.head[r], out.samples[i]), onto_target(apply(take.head[r], take.samples[i]))),
                   1e-9);
     }
+}
+
+TEST(Retarget, the_poses_of_a_planar_take_stay_turns_in_the_picture) {
+    const Map onto_target = [](const Vec3& p) { return Vec3{10 - 3 * p.y, 20 + 3 * p.x, p.z}; };
+    Take take = flat(take_of(face_points()));
+    take.head.assign(5, {{0, 0, std::sin(0.2), std::cos(0.2)}, {1, 2, 0}});
+    const Take out = performed(take, face_with(mapped(face_points(), onto_target)));
+    EXPECT_NEAR(out.head[2].rotation.z, std::sin(0.2), 1e-12);
+    EXPECT_NEAR(out.head[2].rotation.x, 0, 1e-12);
+    const Vec3 p{3, -2, 0};
+    const Vec3 expected = onto_target(apply(take.head[2], p));
+    const Vec3 found = apply(out.head[2], onto_target(p));
+    EXPECT_NEAR(found.x, expected.x, 1e-9);
+    EXPECT_NEAR(found.y, expected.y, 1e-9);
 }
 
 }  // namespace
