@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// The one table of methods that every front reads.
+
+#include "mien/algorithms/riggers.hpp"
+
+#include <array>
+#include <fmt/format.h>
+#include <string>
+
+#include "mien/algorithms/rig_surface_distance.hpp"
+#include "mien/error.hpp"
+
+namespace mien {
+
+namespace {
+
+constexpr std::array table{
+    Rigger{"surface-distance", "points move what is near them along the surface (Kshirsagar et al.)",
+           [](const Face& face, const RigOptions& options) {
+               return rig_surface_distance(face, {.reading = options.reading});
+           }},
+};
+
+}  // namespace
+
+std::span<const Rigger> riggers() {
+    return table;
+}
+
+Rig make_rig(const Face& face, std::string_view method, const RigOptions& options) {
+    std::string names;
+    for (const Rigger& rigger : riggers()) {
+        if (rigger.name == method) return rigger.rig(face, options);
+        names += (names.empty() ? "" : ", ") + std::string(rigger.name);
+    }
+    throw Error(fmt::format("expected a rigging method ({}), found \"{}\"", names, method));
+}
+
+}  // namespace mien
