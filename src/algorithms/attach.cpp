@@ -152,11 +152,11 @@ Row row_of(const Rig& rig, std::uint32_t vertex) {
     return row;
 }
 
-// Roots are the quarter of an island's reach that is nearest to the skin.
-std::vector<bool> roots_of(std::span<const SurfacePoint> nearest) {
+// Roots are the quarter of an island's reach that is nearest to the skin, and all that lies on it.
+std::vector<bool> roots_of(std::span<const SurfacePoint> nearest, double scale) {
     const auto [low, high] = std::minmax_element(nearest.begin(), nearest.end(),
                                                  [](const auto& a, const auto& b) { return a.distance < b.distance; });
-    const double reach = low->distance + 0.25 * (high->distance - low->distance);
+    const double reach = std::max(0.01 * scale, low->distance + 0.25 * (high->distance - low->distance));
     std::vector<bool> roots;
     for (const SurfacePoint& s : nearest) roots.push_back(s.distance <= reach);
     return roots;
@@ -250,16 +250,16 @@ std::size_t longest_row(const Rig& rig) {
     return longest;
 }
 
-std::vector<Row> skin_rows(const Head& head, const Rig& rig, const EdgeGraph& graph, const Island& island) {
+void attach_to_skin(std::vector<Row>& attached, const Head& head, const Rig& rig, const EdgeGraph& graph,
+                    const Island& island) {
     const std::vector<SurfacePoint> nearest = nearest_skin(head, island);
-    std::vector<Row> rows(island.places.size());
-    if (!std::isfinite(nearest.front().distance)) return rows;
-    const std::vector<bool> roots = roots_of(nearest);
+    if (!std::isfinite(nearest.front().distance)) return;
+    const std::vector<bool> roots = roots_of(nearest, head.scale);
     WeightTable table = root_table(head, rig, nearest, roots);
     extend_harmonically(table.weights, graph, island.places, roots, head.scale);
     const std::size_t limit = longest_row(rig);
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = heaviest(table, static_cast<Eigen::Index>(k), limit);
-    return rows;
+    for (std::size_t k = 0; k < island.places.size(); ++k)
+        attached[island.places[k]] = heaviest(table, static_cast<Eigen::Index>(k), limit);
 }
 
 std::string name_of(const Island& island, std::size_t number) {
@@ -292,16 +292,19 @@ std::optional<std::uint32_t> pupil_of(const Rig& rig, const Sphere& ball) {
 
 using PlaceVertices = std::vector<std::vector<std::uint32_t>>;
 
+std::uint32_t count_vertices(const Island& island, const PlaceVertices& vertices) {
+    std::size_t count = 0;
+    for (const std::uint32_t p : island.places) count += vertices[p].size();
+    return static_cast<std::uint32_t>(count);
+}
+
 void add_eyeball(Rig& rig, const EyeballIslands& found, std::span<const Island> list, const PlaceVertices& vertices) {
     Eyeball eyeball{
         name_of(list[found.islands.front()], found.islands.front()), {}, found.ball.centre, pupil_of(rig, found.ball)};
     for (const std::uint32_t i : found.islands) {
-        std::uint32_t count = 0;
-        for (const std::uint32_t p : list[i].places) {
+        for (const std::uint32_t p : list[i].places)
             eyeball.vertices.insert(eyeball.vertices.end(), vertices[p].begin(), vertices[p].end());
-            count += static_cast<std::uint32_t>(vertices[p].size());
-        }
-        report(rig, name_of(list[i], i), "turns about its centre", count);
+        report(rig, name_of(list[i], i), "turns about its centre", count_vertices(list[i], vertices));
     }
     std::sort(eyeball.vertices.begin(), eyeball.vertices.end());
     rig.eyeballs.push_back(std::move(eyeball));
@@ -342,20 +345,17 @@ void attach_islands(Rig& rig, const Face& face, const Weld& weld) {
     const EdgeGraph graph = edge_graph(face.mesh, weld);
     const Row jaw = jaw_row(rig.points);
     std::vector<Row> attached(weld.vertex.size());
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        if (is_done[i]) continue;
-        const Island& island = list[i];
-        Carrier carrier = carrier_of(head, island);
-        if (carrier == Carrier::jaw && jaw.empty()) carrier = Carrier::skull;
-        const std::vector<Row> on_skin =
-            carrier == Carrier::skin ? skin_rows(head, rig, graph, island) : std::vector<Row>{};
-        std::uint32_t count = 0;
-        for (std::size_t k = 0; k < island.places.size(); ++k) {
-            if (carrier != Carrier::skull) attached[island.places[k]] = carrier == Carrier::jaw ? jaw : on_skin[k];
-            count += static_cast<std::uint32_t>(vertices[island.places[k]].size());
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (!is_done[i]) {
+            const Carrier carrier = carrier_of(head, list[i]);
+            const bool has_carrier = carrier != Carrier::jaw || !jaw.empty();
+            report(rig, name_of(list[i], i),
+                   carrier_words[static_cast<std::size_t>(has_carrier ? carrier : Carrier::skull)],
+                   count_vertices(list[i], vertices));
+            if (carrier == Carrier::jaw)
+                for (const std::uint32_t p : list[i].places) attached[p] = jaw;
+            if (carrier == Carrier::skin) attach_to_skin(attached, head, rig, graph, list[i]);
         }
-        report(rig, name_of(island, i), carrier_words[static_cast<std::size_t>(carrier)], count);
-    }
     insert_rows(rig, weld, attached);
 }
 

@@ -28,8 +28,9 @@ Sphere fit_once(std::span<const Vec3> points, std::span<const double> weights) {
         normal += weights[i] * row * row.transpose();
         right += weights[i] * dot(points[i], points[i]) * row;
     }
-    const Eigen::FullPivLU<Eigen::Matrix4d> solver(normal);
-    if (!(solver.rcond() > 1e-9)) return {};
+    Eigen::FullPivLU<Eigen::Matrix4d> solver(normal);
+    solver.setThreshold(1e-9);
+    if (!solver.isInvertible()) return {};
     const Eigen::Vector4d x = solver.solve(right);
     const Vec3 centre{x[0] / 2, x[1] / 2, x[2] / 2};
     return {centre, std::sqrt(std::max(0.0, x[3] + dot(centre, centre))), 0};

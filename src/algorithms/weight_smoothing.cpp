@@ -25,28 +25,36 @@ double cotangent(const Vec3& at, const Vec3& b, const Vec3& c) {
     return across > 0 ? std::clamp(dot(b - at, c - at) / across, 0.0, 100.0) : 0;
 }
 
-void add_triangle(Operators& operators, const Mesh& mesh, const Weld& weld, const std::array<std::uint32_t, 3>& t) {
+void add_triangle(Operators& operators, const Mesh& mesh, const Weld& weld, const std::array<std::uint32_t, 3>& t,
+                  double share) {
     std::array<Vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = to_double(mesh.positions[weld.vertex[t[k]]]);
     const double area = length(cross(p[1] - p[0], p[2] - p[0])) / 2;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-        operators.areas[t[k]] += area / 3;
-        const double weight = cotangent(p[k], p[a], p[b]) / 2;
+        operators.areas[t[k]] += share * area / 3;
+        const double weight = share * cotangent(p[k], p[a], p[b]) / 2;
         if (t[a] == t[b]) continue;
         operators.sides.emplace_back(t[a], t[b], weight);
         operators.sides.emplace_back(t[b], t[a], weight);
     }
 }
 
+// The mean over the fans from all corners, so that no diagonal is preferred; one fan for a polygon of many corners.
+void add_polygon(Operators& operators, const Mesh& mesh, const Weld& weld, std::span<const std::uint32_t> corners) {
+    const std::size_t n = corners.size();
+    const std::size_t fans = n == 3 || n > 8 ? 1 : n;
+    for (std::size_t apex = 0; apex < fans; ++apex)
+        for (std::size_t k = 1; k + 1 < n; ++k)
+            add_triangle(operators, mesh, weld,
+                         {weld.place[corners[apex]], weld.place[corners[(apex + k) % n]],
+                          weld.place[corners[(apex + k + 1) % n]]},
+                         1.0 / static_cast<double>(fans));
+}
+
 Operators operators_of(const Mesh& mesh, const Weld& weld) {
     Operators operators{std::vector<double>(weld.vertex.size(), 0), {}};
-    for (std::size_t f = 0; f < face_count(mesh); ++f) {
-        const auto corners = face(mesh, f);
-        for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-            add_triangle(operators, mesh, weld,
-                         {weld.place[corners[0]], weld.place[corners[k]], weld.place[corners[k + 1]]});
-    }
+    for (std::size_t f = 0; f < face_count(mesh); ++f) add_polygon(operators, mesh, weld, face(mesh, f));
     return operators;
 }
 
