@@ -13,20 +13,17 @@
 #include "mien/algorithms/rig_surface_distance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <tbb/parallel_for.h>
 #include <vector>
 
-#include "algorithms/face_check.hpp"
 #include "algorithms/island.hpp"
+#include "algorithms/movers.hpp"
 #include "algorithms/regions.hpp"
-#include "algorithms/weight_rows.hpp"
 #include "algorithms/weight_smoothing.hpp"
 
-#include "mien/algorithms/attach.hpp"
 #include "mien/algorithms/surface_distance.hpp"
 
 namespace mien {
@@ -38,12 +35,6 @@ struct Surface {
     const Weld& weld;
     EdgeGraph graph;
     [[nodiscard]] Vec3 position(std::uint32_t place) const { return to_double(mesh.positions[weld.vertex[place]]); }
-};
-
-// The feature points that move along one axis.
-struct Movers {
-    std::vector<std::uint16_t> points;  // index into the rig's points
-    std::vector<std::uint32_t> places;  // one per mover
 };
 
 // A neighbouring feature point FP_j as seen from FP_i.
@@ -164,18 +155,6 @@ void append_row(WeightRows& rows, std::span<const Influence> influences, Reading
 // How far the smoothing step reaches, in eye distances.
 constexpr double smoothing_length = 0.1;
 
-// The feature points that move along an axis, in the order of the face. Those on eyeballs move no skin.
-Movers movers_along(const Face& face, const Weld& weld, const std::vector<bool>& solved, int axis) {
-    Movers movers;
-    for (std::uint32_t i = 0; i < face.points.size(); ++i) {
-        const std::uint32_t place = weld.place[face.points[i].vertex];
-        if (!solved[place] || !moves_along(face.points[i], axis)) continue;
-        movers.points.push_back(static_cast<std::uint16_t>(i));
-        movers.places.push_back(place);
-    }
-    return movers;
-}
-
 WeightRows rows_along(const Surface& surface, const Face& face, const std::vector<bool>& solved, const Movers& movers,
                       Reading reading) {
     const auto influences = by_place(all_influences(surface, movers, reading), movers, surface.weld.vertex.size());
@@ -188,39 +167,14 @@ WeightRows rows_along(const Surface& surface, const Face& face, const std::vecto
     return smooth_weights(rows, surface.mesh, surface.weld, solved, held, smoothing_length * face_scale(face));
 }
 
-std::uint32_t count_unreached(const Rig& rig, const Weld& weld, const std::vector<bool>& solved) {
-    std::uint32_t unreached = 0;
-    for (std::size_t v = 0; v < vertex_count(rig); ++v)
-        if (solved[weld.place[v]] && rig.row_starts[v] == rig.row_starts[v + 1]) ++unreached;
-    return unreached;
-}
-
 }  // namespace
 
 Rig rig_surface_distance(const Face& face, const SurfaceDistanceOptions& options) {
-    const Weld joined = weld(face.mesh);
-    check_face(face, joined);
-    const std::vector<bool> solved = solved_places(face, joined);
-    const Surface surface{face.mesh, joined, edge_graph(face.mesh, joined)};
-    std::array<WeightRows, 3> rows;
-    std::array<const WeightRows*, 3> axes{};
-    std::array<Movers, 3> movers;
-    for (int axis = 0; axis < 3; ++axis) {
-        movers[axis] = movers_along(face, joined, solved, axis);
-        const auto same = std::find_if(movers.begin(), movers.begin() + axis,
-                                       [&](const Movers& m) { return m.points == movers[axis].points; });
-        axes[axis] = &rows[same - movers.begin()];
-        if (same == movers.begin() + axis)
-            rows[axis] = rows_along(surface, face, solved, movers[axis], options.reading);
-    }
-    Rig rig;
-    rig.method = "surface-distance";
-    rig.points = face.points;
-    rig.rest = face.mesh.positions;
-    spread_rows(rig, joined, axes);
-    rig.unreached = count_unreached(rig, joined, solved);
-    attach_islands(rig, face, joined);
-    return rig;
+    return rig_by_axes("surface-distance", face,
+                       [&](const Weld& weld, const std::vector<bool>& solved, const Movers& movers) {
+                           const Surface surface{face.mesh, weld, edge_graph(face.mesh, weld)};
+                           return rows_along(surface, face, solved, movers, options.reading);
+                       });
 }
 
 }  // namespace mien

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <string>
 
+#include "mien/algorithms/rig_biharmonic.hpp"
 #include "mien/algorithms/rig_surface_distance.hpp"
 #include "mien/error.hpp"
 
@@ -17,6 +18,10 @@ namespace mien {
 namespace {
 
 constexpr std::array table{
+    Rigger{"biharmonic", "the skin bends like a thin elastic sheet that the points hold",
+           [](const Face& face, const RigOptions& options) {
+               return rig_biharmonic(face, {.influences = options.influences});
+           }},
     Rigger{"surface-distance", "points move what is near them along the surface (Kshirsagar et al.)",
            [](const Face& face, const RigOptions& options) {
                return rig_surface_distance(face, {.reading = options.reading});
