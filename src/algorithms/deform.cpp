@@ -31,7 +31,6 @@ Vec3f moved(const Rig& rig, std::size_t v, std::span<const Vec3f> displacements)
 void turn(const Rig& rig, const Eyeball& eyeball, std::span<const Vec3f> displacements,
           std::span<Vec3f> positions) noexcept {
     const Quaternion q = eyeball_turn(rig, eyeball, displacements);
-    if (q == Quaternion{}) return;
     for (const std::uint32_t v : eyeball.vertices)
         positions[v] = to_float(eyeball.centre + rotate(q, to_double(rig.rest[v]) - eyeball.centre));
 }

@@ -275,7 +275,7 @@ TEST(AttachIslands, ALashIsNotTorn) {
 TEST(AttachIslands, PiecesOfOneNameAreOneLineOfTheReport) {
     Face face = shapes::mask();
     for (int k = 0; k < 5; ++k) {
-        add_piece(face, "hair", shapes::strip(1), {0, 4.0F + static_cast<float>(k), -3});
+        add_piece(face, "hair", shapes::strip(1), {0, 4.0F + 2.0F * static_cast<float>(k), -3});
     }
     face.mesh.positions.push_back({9, 9, 9});
     const Rig rig = rig_of(face);

@@ -138,6 +138,14 @@ TEST(SurfaceDistanceRemedied, WeightsLieBetweenNoneAndAllAndNeverSumToMore) {
     }
 }
 
+TEST(SurfaceDistanceRemedied, AVertexWithOneInfluenceFollowsItAsFarAsItsWeightGoes) {
+    // Points at 0 and 4 of a strip: 7 is reached by the second alone, 3 of its 4 units away. The smoothing reaches
+    // 0.12.
+    const Face face = with_points_at(shapes::strip(8), {0, 4});
+    EXPECT_NEAR(weight(rig(face, Reading::remedied), 7, 1), w(3, 4), 0.02);
+    EXPECT_NEAR(weight(rig(face, Reading::paper), 3, 1), w(1, 4) / (w(1, 4) + w(3, 4) / 9), 1e-6);
+}
+
 // Largest difference of the weight vectors of two vertices on an edge away from the points, as a share of what is
 // possible.
 double largest_jump(const Rig& made, const Face& face) {
