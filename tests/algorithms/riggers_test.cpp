@@ -8,6 +8,7 @@
 
 #include "shapes.hpp"
 
+#include "mien/algorithms/rig_biharmonic.hpp"
 #include "mien/algorithms/rig_surface_distance.hpp"
 #include "mien/error.hpp"
 
@@ -32,6 +33,17 @@ TEST(Riggers, HaveNamesOfTheirOwnAndASummary) {
 
 TEST(Riggers, SignTheirRigs) {
     for (const Rigger& rigger : riggers()) EXPECT_EQ(make_rig(shapes::mask(), rigger.name).method, rigger.name);
+}
+
+TEST(Riggers, TheFirstIsTheDefault) {
+    EXPECT_EQ(riggers().front().name, "biharmonic");
+}
+
+TEST(Riggers, PassTheNumberOfInfluencesOn) {
+    RigOptions options;
+    options.influences = 4;
+    EXPECT_EQ(make_rig(shapes::mask(), "biharmonic", options).weights,
+              rig_biharmonic(shapes::mask(), {.influences = 4}).weights);
 }
 
 TEST(Riggers, PassTheReadingOn) {
