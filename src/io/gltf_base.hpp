@@ -24,8 +24,8 @@ struct WrittenPrimitive {
 /// A document that shows a neutral head in scene space and does nothing yet.
 struct BaseDocument {
     GltfDocument document;
-    std::size_t scene = 0;                    ///< the scene that shows the head
-    std::vector<std::size_t> mesh_nodes;      ///< roots of that scene without a transform, one per mesh of the head
+    std::size_t scene = 0;                     ///< the scene that shows the head
+    std::vector<std::size_t> mesh_nodes;       ///< roots of that scene without a transform, one per mesh of the head
     std::vector<WrittenPrimitive> primitives;  ///< ascending by mesh, then primitive
 };
 

@@ -19,11 +19,16 @@ enum class Component : std::uint16_t { uint8 = 5121, uint16 = 5123, uint32 = 512
 
 const char* name(Elements elements) {
     switch (elements) {
-        case Elements::scalar: return "SCALAR";
-        case Elements::vec2: return "VEC2";
-        case Elements::vec3: return "VEC3";
-        case Elements::vec4: return "VEC4";
-        case Elements::mat4: return "MAT4";
+        case Elements::scalar:
+            return "SCALAR";
+        case Elements::vec2:
+            return "VEC2";
+        case Elements::vec3:
+            return "VEC3";
+        case Elements::vec4:
+            return "VEC4";
+        case Elements::mat4:
+            return "MAT4";
     }
     return "SCALAR";
 }

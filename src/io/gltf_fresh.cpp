@@ -154,8 +154,7 @@ json written_primitive(GltfDocument& document, const Mesh& mesh, const SplitVert
 
 // Lists of one element are pushed: braces round one value are an array to one compiler and a copy to another.
 json plain_document() {
-    const json surface = {
-        {"baseColorFactor", {0.8, 0.8, 0.8, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}};
+    const json surface = {{"baseColorFactor", {0.8, 0.8, 0.8, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}};
     json document;
     document["asset"]["version"] = "2.0";
     document["scene"] = 0;

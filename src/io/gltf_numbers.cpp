@@ -38,13 +38,20 @@ struct Component {
 
 Component component_of(std::uint64_t type) {
     switch (type) {
-        case 5120: return {1, number_at<std::int8_t>};
-        case 5121: return {1, number_at<std::uint8_t>};
-        case 5122: return {2, number_at<std::int16_t>};
-        case 5123: return {2, number_at<std::uint16_t>};
-        case 5125: return {4, number_at<std::uint32_t>};
-        case 5126: return {4, number_at<float>};
-        default: throw Error(fmt::format("gltf: expected a componentType from 5120 to 5126, found {}", type));
+        case 5120:
+            return {1, number_at<std::int8_t>};
+        case 5121:
+            return {1, number_at<std::uint8_t>};
+        case 5122:
+            return {2, number_at<std::int16_t>};
+        case 5123:
+            return {2, number_at<std::uint16_t>};
+        case 5125:
+            return {4, number_at<std::uint32_t>};
+        case 5126:
+            return {4, number_at<float>};
+        default:
+            throw Error(fmt::format("gltf: expected a componentType from 5120 to 5126, found {}", type));
     }
 }
 
@@ -78,8 +85,8 @@ void put_sparse(const GltfDocument& document, const json& accessor, std::size_t 
     for (std::size_t i = 0; i < count; ++i) {
         const double at = index.read(indices.first + i * indices.stride, false);
         if (!(at >= 0 && at * static_cast<double>(width) < static_cast<double>(numbers.size())))
-            throw Error(fmt::format("gltf: expected sparse indices within {} elements, found {}",
-                                    numbers.size() / width, at));
+            throw Error(
+                fmt::format("gltf: expected sparse indices within {} elements, found {}", numbers.size() / width, at));
         for (std::size_t c = 0; c < width; ++c)
             numbers[static_cast<std::size_t>(at) * width + c] =
                 value.read(values.first + i * values.stride + c * value.size, normalized);

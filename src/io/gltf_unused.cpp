@@ -22,8 +22,8 @@ using References = std::vector<json*>;
 
 // Extensions outside these families may number accessors in ways of their own.
 bool is_known(std::string_view extension) {
-    constexpr std::array families{"KHR_", "EXT_texture_", "EXT_lights_", "EXT_mesh_gpu_instancing",
-                                  "EXT_meshopt_compression", "VRM", "MIEN_"};
+    constexpr std::array families{
+        "KHR_", "EXT_texture_", "EXT_lights_", "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "VRM", "MIEN_"};
     return std::any_of(families.begin(), families.end(),
                        [&](std::string_view family) { return extension.substr(0, family.size()) == family; });
 }
@@ -128,8 +128,9 @@ void keep_viewed_bytes(GltfDocument& document) {
 
 void drop_unused_numbers(GltfDocument& document) {
     const json used = document.json.value("extensionsUsed", json::array());
-    const bool all_known = std::all_of(used.begin(), used.end(),
-                                       [](const json& name) { return name.is_string() && is_known(name.get<std::string>()); });
+    const bool all_known = std::all_of(used.begin(), used.end(), [](const json& name) {
+        return name.is_string() && is_known(name.get<std::string>());
+    });
     if (!all_known) return;
     keep_used(document.json, "accessors", accessor_references(document.json));
     keep_used(document.json, "bufferViews", view_references(document.json));
