@@ -31,7 +31,7 @@ std::optional<Vec3> middle(std::span<const FeaturePoint> points, std::string_vie
     return 0.5 * (points[*i].position + points[*j].position);
 }
 
-// The eye's centre from the first pair of points that is there: corners, pupil, lids.
+// The eye's centre from the first pair of points that is there: corners, pupil, lids, one lid.
 std::optional<Vec3> eye(std::span<const FeaturePoint> points, std::initializer_list<std::string_view> pairs) {
     for (auto id = pairs.begin(); id != pairs.end(); id += 2)
         if (const auto centre = middle(points, id[0], id[1])) return centre;
@@ -51,8 +51,10 @@ double root_mean_square_radius(std::span<const FeaturePoint> points) {
 }  // namespace
 
 double eye_distance(std::span<const FeaturePoint> points) {
-    const auto left = eye(points, {"3.7", "3.11", "3.5", "3.5", "3.1", "3.3", "3.9", "3.13"});
-    const auto right = eye(points, {"3.8", "3.12", "3.6", "3.6", "3.2", "3.4", "3.10", "3.14"});
+    const auto left =
+        eye(points, {"3.7", "3.11", "3.5", "3.5", "3.1", "3.3", "3.9", "3.13", "3.1", "3.1", "3.3", "3.3"});
+    const auto right =
+        eye(points, {"3.8", "3.12", "3.6", "3.6", "3.2", "3.4", "3.10", "3.14", "3.2", "3.2", "3.4", "3.4"});
     if (left && right && *left != *right) return distance(*left, *right);
     return 0.6 * root_mean_square_radius(points);
 }

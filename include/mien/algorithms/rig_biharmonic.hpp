@@ -23,8 +23,9 @@ struct BiharmonicOptions {
 /// folds, and lips and lids stay apart because the sheet ends at them. The default.
 ///
 /// Minimises x'(L M^-1 L + a L)x per point with L the cotangent Laplacian of the welded surface, M its lumped vertex
-/// areas, the feature points fixed at one or zero and far vertices at zero; open borders are natural. One scalar weight
-/// per vertex and point; weights may be negative. Source: tension biharmonic interpolation, docs/methods.md.
+/// areas, the feature points fixed at one or zero and far vertices at zero; weights have no slope at open borders. One
+/// scalar weight per vertex and point; weights may be negative. Source: tension biharmonic interpolation,
+/// docs/methods.md.
 ///
 /// - The result does not depend on unit, origin or vertex order.
 /// - A vertex at a feature point follows it exactly.
