@@ -17,8 +17,13 @@ struct Laplacian {
     Eigen::VectorXd areas;
 };
 
+enum class Cotangents {
+    exact,     ///< those of obtuse corners are negative
+    positive,  ///< negative ones raised to zero: what diffuses then stays between the values around it
+};
+
 /// Polygons count as the mean of the fans from their corners, so that no diagonal is preferred. Slivers and triangles
 /// without area are softened, never dropped: what hangs on them moves along.
-Laplacian laplacian(const Mesh& mesh, const Weld& weld);
+Laplacian laplacian(const Mesh& mesh, const Weld& weld, Cotangents cotangents = Cotangents::exact);
 
 }  // namespace mien

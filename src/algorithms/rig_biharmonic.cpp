@@ -51,14 +51,6 @@ Sparse energy(const Laplacian& surface, double tension) {
     return q;
 }
 
-// The matrix that picks these places: places x picked.
-Sparse picks(Eigen::Index places, const std::vector<std::uint32_t>& picked) {
-    Sparse pick(places, std::ssize(picked));
-    pick.reserve(Eigen::VectorXi::Constant(std::ssize(picked), 1));
-    for (Eigen::Index i = 0; i < std::ssize(picked); ++i) pick.insert(picked[i], i) = 1;
-    return pick;
-}
-
 struct SheetWeights {
     std::vector<std::uint32_t> free;  // places, ascending
     Eigen::MatrixXd weights;          // free x movers

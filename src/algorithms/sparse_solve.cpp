@@ -48,4 +48,11 @@ Eigen::MatrixXd solve_checked(const Eigen::SparseMatrix<double>& matrix, const E
     return x;
 }
 
+Eigen::SparseMatrix<double> picks(Eigen::Index rows, std::span<const std::uint32_t> picked) {
+    Eigen::SparseMatrix<double> pick(rows, std::ssize(picked));
+    pick.reserve(Eigen::VectorXi::Constant(std::ssize(picked), 1));
+    for (Eigen::Index i = 0; i < std::ssize(picked); ++i) pick.insert(picked[static_cast<std::size_t>(i)], i) = 1;
+    return pick;
+}
+
 }  // namespace mien

@@ -6,126 +6,69 @@
 
 #include "algorithms/weight_smoothing.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <vector>
+
+#include "algorithms/laplacian.hpp"
+#include "algorithms/sparse_solve.hpp"
 
 namespace mien {
 
 namespace {
 
-struct Operators {
-    std::vector<double> areas;                  // one per place
-    std::vector<Eigen::Triplet<double>> sides;  // (a, b, weight), both ways
-};
+constexpr double smallest_weight = 1e-4;
 
-double cotangent(const Vec3& at, const Vec3& b, const Vec3& c) {
-    const double across = length(cross(b - at, c - at));
-    return across > 0 ? std::clamp(dot(b - at, c - at) / across, 0.0, 100.0) : 0;
-}
-
-void add_triangle(Operators& operators, const Mesh& mesh, const Weld& weld, const std::array<std::uint32_t, 3>& t,
-                  double share) {
-    std::array<Vec3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = to_double(mesh.positions[weld.vertex[t[k]]]);
-    const double area = length(cross(p[1] - p[0], p[2] - p[0])) / 2;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-        operators.areas[t[k]] += share * area / 3;
-        const double weight = share * cotangent(p[k], p[a], p[b]) / 2;
-        if (t[a] == t[b]) continue;
-        operators.sides.emplace_back(t[a], t[b], weight);
-        operators.sides.emplace_back(t[b], t[a], weight);
-    }
-}
-
-// The mean over the fans from all corners, so that no diagonal is preferred; one fan for a polygon of many corners.
-void add_polygon(Operators& operators, const Mesh& mesh, const Weld& weld, std::span<const std::uint32_t> corners) {
-    const std::size_t n = corners.size();
-    const std::size_t fans = n == 3 || n > 8 ? 1 : n;
-    for (std::size_t apex = 0; apex < fans; ++apex)
-        for (std::size_t k = 1; k + 1 < n; ++k)
-            add_triangle(operators, mesh, weld,
-                         {weld.place[corners[apex]], weld.place[corners[(apex + k) % n]],
-                          weld.place[corners[(apex + k + 1) % n]]},
-                         1.0 / static_cast<double>(fans));
-}
-
-Operators operators_of(const Mesh& mesh, const Weld& weld) {
-    Operators operators{std::vector<double>(weld.vertex.size(), 0), {}};
-    for (std::size_t f = 0; f < face_count(mesh); ++f) add_polygon(operators, mesh, weld, face(mesh, f));
-    return operators;
-}
-
-// Which row of the system each place has: -1 where it is not solved, or held.
-std::vector<Eigen::Index> number_unknowns(const std::vector<bool>& solved, std::span<const HeldPlace> held) {
-    std::vector<Eigen::Index> unknown(solved.size(), -1);
+std::vector<std::uint32_t> free_places(const std::vector<bool>& solved, std::span<const HeldPlace> held) {
     std::vector<bool> is_free(solved);
     for (const HeldPlace& h : held) is_free[h.place] = false;
-    Eigen::Index count = 0;
-    for (std::size_t p = 0; p < solved.size(); ++p)
-        if (is_free[p]) unknown[p] = count++;
-    return unknown;
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t p = 0; p < is_free.size(); ++p)
+        if (is_free[p]) places.push_back(p);
+    return places;
 }
 
-struct System {
-    Eigen::SparseMatrix<double> matrix;
-    Eigen::MatrixXd right;
-};
-
-System assemble(const WeightRows& rows, const Operators& operators, std::span<const Eigen::Index> unknown,
-                std::span<const HeldPlace> held, double time) {
-    const Eigen::Index unknowns = std::max<Eigen::Index>(0, *std::max_element(unknown.begin(), unknown.end()) + 1);
+// places x held: the weights as they are.
+Eigen::MatrixXd dense(const WeightRows& rows, std::span<const HeldPlace> held) {
     std::vector<Eigen::Index> column(65536, -1);
     for (std::size_t i = 0; i < held.size(); ++i) column[held[i].point] = static_cast<Eigen::Index>(i);
-    std::vector<Eigen::Index> held_at(unknown.size(), -1);
-    for (const HeldPlace& h : held) held_at[h.place] = column[h.point];
-
-    System system{Eigen::SparseMatrix<double>(unknowns, unknowns), Eigen::MatrixXd::Zero(unknowns, std::ssize(held))};
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t p = 0; p < unknown.size(); ++p) {
-        if (unknown[p] < 0) continue;
-        const double area = std::max(operators.areas[p], 1e-12 * time);
-        entries.emplace_back(unknown[p], unknown[p], area);
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(std::ssize(rows.starts) - 1, std::ssize(held));
+    for (Eigen::Index p = 0; p < weights.rows(); ++p)
         for (std::uint32_t e = rows.starts[p]; e < rows.starts[p + 1]; ++e)
-            system.right(unknown[p], column[rows.points[e]]) += area * rows.weights[e];
+            weights(p, column[rows.points[e]]) = rows.weights[e];
+    return weights;
+}
+
+WeightRows sparse(const Eigen::MatrixXd& weights, std::span<const HeldPlace> held) {
+    WeightRows rows;
+    for (Eigen::Index p = 0; p < weights.rows(); ++p) {
+        for (std::size_t i = 0; i < held.size(); ++i) {
+            const double weight = weights(p, static_cast<Eigen::Index>(i));
+            if (weight < smallest_weight) continue;
+            rows.points.push_back(held[i].point);
+            rows.weights.push_back(weight);
+        }
+        rows.starts.push_back(static_cast<std::uint32_t>(rows.points.size()));
     }
-    for (const auto& side : operators.sides) {
-        const Eigen::Index a = unknown[side.row()], b = unknown[side.col()];
-        if (a < 0) continue;
-        entries.emplace_back(a, a, time * side.value());
-        if (b >= 0) entries.emplace_back(a, b, -time * side.value());
-        if (held_at[side.col()] >= 0) system.right(a, held_at[side.col()]) += time * side.value();
-    }
-    system.matrix.setFromTriplets(entries.begin(), entries.end());
-    return system;
+    return rows;
 }
 
 }  // namespace
 
 WeightRows smooth_weights(const WeightRows& rows, const Mesh& mesh, const Weld& weld, const std::vector<bool>& solved,
                           std::span<const HeldPlace> held, double length) {
-    const std::vector<Eigen::Index> unknown = number_unknowns(solved, held);
-    const System system = assemble(rows, operators_of(mesh, weld), unknown, held, length * length);
-    if (system.matrix.rows() == 0) return rows;
-    const Eigen::MatrixXd weights =
-        Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system.matrix).solve(system.right);
-    WeightRows smooth;
-    for (std::size_t p = 0; p < unknown.size(); ++p) {
-        for (std::uint32_t e = rows.starts[p]; unknown[p] < 0 && e < rows.starts[p + 1]; ++e) {
-            smooth.points.push_back(rows.points[e]);
-            smooth.weights.push_back(rows.weights[e]);
-        }
-        for (std::size_t i = 0; unknown[p] >= 0 && i < held.size(); ++i) {
-            const double weight = weights(unknown[p], static_cast<Eigen::Index>(i));
-            if (weight < 1e-4) continue;
-            smooth.points.push_back(held[i].point);
-            smooth.weights.push_back(weight);
-        }
-        smooth.starts.push_back(static_cast<std::uint32_t>(smooth.points.size()));
-    }
-    return smooth;
+    const Laplacian surface = laplacian(mesh, weld, Cotangents::positive);
+    const std::vector<std::uint32_t> free = free_places(solved, held);
+    Eigen::MatrixXd weights = dense(rows, held);
+    const Eigen::MatrixXd moved = surface.areas.asDiagonal() * weights;
+    for (const std::uint32_t p : free) weights.row(p).setZero();
+
+    // (M + t L) W' = M W on the free places, with what is held on the right side.
+    Eigen::SparseMatrix<double> step = length * length * surface.stiffness;
+    const Eigen::MatrixXd right = moved - step * weights;
+    step += Eigen::SparseMatrix<double>(surface.areas.asDiagonal());
+    const Eigen::SparseMatrix<double> pick = picks(step.rows(), free);
+    weights += pick * solve_checked(pick.transpose() * step * pick, pick.transpose() * right, "surface distance rig");
+    return sparse(weights, held);
 }
 
 }  // namespace mien
