@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// A take as an animation of joints (glTF 2.0 specification, 3.11): one key time per row, shared by all tracks; tracks
+// that never leave the rest of their node are not written. The head's motion is that of the node above all joints, so
+// a joint stands at head pose * own pose, and the skin follows.
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "io/gltf_builder.hpp"
+#include "io/gltf_skin.hpp"
+
+#include "mien/io/gltf.hpp"
+
+namespace mien {
+
+namespace {
+
+using nlohmann::json;
+
+// What a node does over time: `rest` at every key where nothing moves.
+struct Track {
+    std::size_t node;
+    const char* path;
+    std::vector<float> rest;
+    std::vector<float> values;
+};
+
+// The rows that get a key, and its time: seconds since the take began. Rows so close that floats cannot tell their
+// times apart give way to the first of them.
+struct Keys {
+    std::vector<std::size_t> rows;
+    std::vector<float> times;
+};
+
+Keys keys_of(const Take& take) {
+    Keys keys;
+    for (std::size_t r = 0; r < row_count(take); ++r) {
+        const auto time = static_cast<float>(take.times[r] - take.times.front());
+        if (r > 0 && !(time > keys.times.back())) continue;
+        keys.rows.push_back(r);
+        keys.times.push_back(time);
+    }
+    return keys;
+}
+
+// Appends a rotation of length 1 on the side of the one before it, so that what lies between takes the short way.
+void append_rotation(std::vector<float>& values, const Quaternion& q) {
+    const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    const std::size_t n = values.size();
+    const double side =
+        n == 0 ? q.w : q.x * values[n - 4] + q.y * values[n - 3] + q.z * values[n - 2] + q.w * values[n - 1];
+    const double scale = (side < 0 ? -1 : 1) / norm;
+    for (const double part : {q.x, q.y, q.z, q.w}) values.push_back(static_cast<float>(scale * part));
+}
+
+void append_translation(std::vector<float>& values, const Vec3& t) {
+    const Vec3f narrow = to_float(t);
+    values.insert(values.end(), {narrow.x, narrow.y, narrow.z});
+}
+
+bool stays(const Track& track) {
+    for (std::size_t i = 0; i < track.values.size(); ++i)
+        if (track.values[i] != track.rest[i % track.rest.size()]) return false;
+    return true;
+}
+
+// A joint of a point translates; an eyeball turns.
+std::vector<Track> joint_tracks(const Rig& rig, const Take& take, const Keys& keys, const JointNodes& nodes) {
+    std::vector<Track> tracks;
+    for (std::size_t j = 0; j < nodes.joints.size(); ++j) {
+        const Vec3f origin = written_origin(rig, j);
+        if (j <= rig.points.size())
+            tracks.push_back({nodes.joints[j], "translation", {origin.x, origin.y, origin.z}, {}});
+        else
+            tracks.push_back({nodes.joints[j], "rotation", {0, 0, 0, 1}, {}});
+    }
+    const TakeBinding binding = bind_take(rig, take);
+    std::vector<Vec3f> moved(rig.points.size());
+    std::vector<Pose> poses(joint_count(rig));
+    for (const std::size_t r : keys.rows) {
+        displacements(rig, binding, row(take, r), moved);
+        joint_poses(rig, moved, poses);
+        for (std::size_t j = 0; j < tracks.size(); ++j) {
+            const Vec3 origin = to_double(written_origin(rig, j));
+            if (j <= rig.points.size())
+                append_translation(tracks[j].values, origin + poses[j].translation);
+            else
+                append_rotation(tracks[j].values, poses[j].rotation);
+        }
+    }
+    return tracks;
+}
+
+std::vector<Track> head_tracks(const Take& take, const Keys& keys, const JointNodes& nodes) {
+    Track rotation{nodes.root, "rotation", {0, 0, 0, 1}, {}}, translation{nodes.root, "translation", {0, 0, 0}, {}};
+    for (const std::size_t r : keys.rows) {
+        append_rotation(rotation.values, take.head[r].rotation);
+        append_translation(translation.values, take.head[r].translation);
+    }
+    return {std::move(rotation), std::move(translation)};
+}
+
+void append_animation(GltfDocument& document, const Keys& keys, const std::vector<Track>& tracks) {
+    if (std::all_of(tracks.begin(), tracks.end(), stays)) return;
+    const std::size_t input = append_floats(document, keys.times, Elements::scalar, BufferTarget::none, Bounds::given);
+    json samplers = json::array(), channels = json::array();
+    for (const Track& track : tracks) {
+        if (stays(track)) continue;
+        const Elements elements = track.rest.size() == 4 ? Elements::vec4 : Elements::vec3;
+        const std::size_t output = append_floats(document, track.values, elements, BufferTarget::none);
+        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", track.node}, {"path", track.path}}}});
+        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+    }
+    append_object(document, "animations",
+                  {{"name", "take"}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}});
+}
+
+}  // namespace
+
+std::vector<std::byte> format_glb(const Mesh& mesh, const Rig& rig, const Skin& skin, const Take& take,
+                                  const GltfOptions& options) {
+    BaseDocument base = base_document(mesh);
+    const JointNodes nodes = append_skin(base, rig, skin);
+    const Keys keys = keys_of(take);
+    std::vector<Track> tracks = joint_tracks(rig, take, keys, nodes);
+    if (options.head_motion && !take.head.empty()) {
+        std::vector<Track> head = head_tracks(take, keys, nodes);
+        std::move(head.begin(), head.end(), std::back_inserter(tracks));
+    }
+    append_animation(base.document, keys, tracks);
+    return format_glb(base.document);
+}
+
+}  // namespace mien
