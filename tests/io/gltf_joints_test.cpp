@@ -31,7 +31,7 @@ struct Head {
 Head head(std::uint32_t points = 3, std::uint32_t influences = 4) {
     Head made;
     made.mesh = shapes::grid(6, 5, 0.01F);
-    const std::size_t skin_vertices = vertex_count(made.mesh);
+    const auto skin_vertices = static_cast<std::uint32_t>(vertex_count(made.mesh));
     shapes::append(made.mesh, shapes::ball({0.03F, 0.02F, 0.05F}, 0.012F, 6, 8));
     Rig& rig = made.rig;
     rig.rest = made.mesh.positions;
@@ -191,7 +191,7 @@ TEST(Joints, only_what_moves_has_a_track_and_all_share_their_times) {
     EXPECT_EQ(animation["channels"].size(), 4U) << "three of four points and the eyeball";
     for (const json& sampler : animation["samplers"]) EXPECT_EQ(sampler["input"], animation["samplers"][0]["input"]);
     const std::vector<double> times = gltf_scene::numbers(document, animation["samplers"][0]["input"]);
-    EXPECT_THAT(times, testing::ElementsAre(0, testing::FloatEq(0.04F), testing::FloatEq(0.08F)));
+    EXPECT_THAT(times, testing::ElementsAre(0, double{0.04F}, double{0.08F}));
     const json& accessor = document.json["accessors"][animation["samplers"][0]["input"].get<std::size_t>()];
     EXPECT_EQ(accessor["min"][0], 0);
     EXPECT_EQ(accessor["max"][0].get<float>(), 0.08F);
