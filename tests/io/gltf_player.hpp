@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// A small glTF player for tests, written from the specification and sharing nothing with what it judges but the
+// container: it shows where every vertex of a written file is at a time, as a viewer would.
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/glb.hpp"
+
+#include "mien/vec.hpp"
+
+namespace mien::played {
+
+using nlohmann::json;
+using Numbers = std::vector<std::vector<double>>;  ///< elements of an accessor, each with its components
+
+class Player {
+public:
+    explicit Player(std::span<const std::byte> bytes) : document_(parse_glb(bytes)) {}
+
+    [[nodiscard]] const json& root() const { return document_.json; }
+
+    /// The elements of accessor `index`; normalised integers as numbers from 0 to 1.
+    [[nodiscard]] Numbers accessor(std::size_t index) const {
+        const json& accessor = root().at("accessors").at(index);
+        const std::size_t width =
+            std::map<std::string, std::size_t>{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}.at(
+                accessor.at("type"));
+        const std::size_t count = accessor.at("count");
+        Numbers numbers(count, std::vector<double>(width, 0.0));
+        if (accessor.contains("bufferView"))
+            for (std::size_t i = 0; i < count; ++i)
+                numbers[i] = element(accessor, accessor.at("componentType"), width, i);
+        if (accessor.contains("sparse")) replace(numbers, accessor.at("sparse"), accessor.at("componentType"), width);
+        return numbers;
+    }
+
+    /// Where every vertex of every shown mesh is at `time`: nodes in their order, then primitives, then vertices.
+    [[nodiscard]] std::vector<Vec3> positions(double time) const {
+        const json nodes = posed(time);
+        std::vector<Vec3> result;
+        for (std::size_t n = 0; n < nodes.size(); ++n) {
+            if (!nodes[n].contains("mesh")) continue;
+            const json& mesh = root().at("meshes").at(nodes[n].at("mesh").get<std::size_t>());
+            for (const json& primitive : mesh.at("primitives")) show(nodes, n, mesh, primitive, result);
+        }
+        return result;
+    }
+
+    /// The last key time of all animations; 0 without any.
+    [[nodiscard]] double duration() const {
+        double last = 0;
+        for (const json& animation : root().value("animations", json::array()))
+            for (const json& sampler : animation.at("samplers"))
+                last = std::max(last, accessor(sampler.at("input")).back()[0]);
+        return last;
+    }
+
+private:
+    static std::size_t size_of(int component) {
+        return std::map<int, std::size_t>{{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}}.at(
+            component);
+    }
+
+    template <class T>
+    static double number(const std::byte* at) {
+        T value{};
+        std::memcpy(&value, at, sizeof value);
+        return static_cast<double>(value);
+    }
+
+    [[nodiscard]] std::vector<double> element(const json& place, int component, std::size_t width,
+                                              std::size_t i) const {
+        const json& view = root().at("bufferViews").at(place.at("bufferView").get<std::size_t>());
+        const std::size_t size = size_of(component);
+        const std::size_t stride = view.value("byteStride", size * width);
+        const std::size_t inside = place.value("byteOffset", std::size_t{0}) + i * stride;
+        EXPECT_LE(inside + size * width, view.at("byteLength").get<std::size_t>());
+        const std::byte* at = document_.binary.data() + view.value("byteOffset", std::size_t{0}) + inside;
+        std::vector<double> values;
+        for (std::size_t c = 0; c < width; ++c, at += size) {
+            const double raw = component == 5121   ? number<std::uint8_t>(at)
+                               : component == 5123 ? number<std::uint16_t>(at)
+                               : component == 5125 ? number<std::uint32_t>(at)
+                                                   : number<float>(at);
+            values.push_back(place.value("normalized", false) ? raw / (component == 5121 ? 255.0 : 65535.0) : raw);
+        }
+        return values;
+    }
+
+    void replace(Numbers& numbers, const json& sparse, int component, std::size_t width) const {
+        const json& indices = sparse.at("indices");
+        double before = -1;
+        for (std::size_t i = 0; i < sparse.at("count").get<std::size_t>(); ++i) {
+            const double at = element(indices, indices.at("componentType"), 1, i)[0];
+            EXPECT_GT(at, before) << "sparse indices ascend";
+            before = at;
+            numbers.at(static_cast<std::size_t>(at)) = element(sparse.at("values"), component, width, i);
+        }
+    }
+
+    // The values of a sampler at a time: linear, or spherical for rotations.
+    [[nodiscard]] std::vector<double> sampled(const json& sampler, double time, bool turns) const {
+        EXPECT_EQ(sampler.value("interpolation", "LINEAR"), "LINEAR");
+        const Numbers times = accessor(sampler.at("input"));
+        const Numbers flat = accessor(sampler.at("output"));
+        const std::size_t per_key = flat.size() / times.size();
+        const auto key = [&](std::size_t k) {
+            std::vector<double> values;
+            for (std::size_t i = 0; i < per_key; ++i)
+                values.insert(values.end(), flat[k * per_key + i].begin(), flat[k * per_key + i].end());
+            return values;
+        };
+        if (time <= times.front()[0]) return key(0);
+        if (time >= times.back()[0]) return key(times.size() - 1);
+        std::size_t k = 0;
+        while (times[k + 1][0] <= time) ++k;
+        const double share = (time - times[k][0]) / (times[k + 1][0] - times[k][0]);
+        std::vector<double> a = key(k);
+        const std::vector<double> b = key(k + 1);
+        if (turns) {
+            const Eigen::Quaterniond from(a[3], a[0], a[1], a[2]), to(b[3], b[0], b[1], b[2]);
+            const Eigen::Quaterniond between = from.slerp(share, to);
+            return {between.x(), between.y(), between.z(), between.w()};
+        }
+        for (std::size_t i = 0; i < a.size(); ++i) a[i] += share * (b[i] - a[i]);
+        return a;
+    }
+
+    // The nodes with the animations' values at a time written into them.
+    [[nodiscard]] json posed(double time) const {
+        json nodes = root().at("nodes");
+        for (const json& animation : root().value("animations", json::array()))
+            for (const json& channel : animation.at("channels")) {
+                const std::string path = channel.at("target").at("path");
+                const json& sampler = animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
+                nodes.at(channel.at("target").at("node").get<std::size_t>())[path] =
+                    sampled(sampler, time, path == "rotation");
+            }
+        return nodes;
+    }
+
+    static Eigen::Affine3d local(const json& node) {
+        const std::vector<double> t = node.value("translation", std::vector<double>{0, 0, 0});
+        const std::vector<double> r = node.value("rotation", std::vector<double>{0, 0, 0, 1});
+        const std::vector<double> s = node.value("scale", std::vector<double>{1, 1, 1});
+        if (node.contains("matrix")) {
+            const std::vector<double> m = node.at("matrix");
+            return Eigen::Affine3d(Eigen::Map<const Eigen::Matrix4d>(m.data()));
+        }
+        return Eigen::Translation3d(t[0], t[1], t[2]) * Eigen::Quaterniond(r[3], r[0], r[1], r[2]) *
+               Eigen::Scaling(s[0], s[1], s[2]);
+    }
+
+    static Eigen::Affine3d global(const json& nodes, std::size_t node) {
+        for (std::size_t parent = 0; parent < nodes.size(); ++parent)
+            for (const json& child : nodes[parent].value("children", json::array()))
+                if (child == node) return global(nodes, parent) * local(nodes[node]);
+        return local(nodes[node]);
+    }
+
+    static Eigen::Vector3d vector(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
+
+    // Morph targets first, then the skin (or the node where there is none), as the specification says.
+    void show(const json& nodes, std::size_t node, const json& mesh, const json& primitive,
+              std::vector<Vec3>& result) const {
+        Numbers points = accessor(primitive.at("attributes").at("POSITION"));
+        add_targets(nodes[node], mesh, primitive, points);
+        std::vector<Eigen::Affine3d> palette;
+        if (nodes[node].contains("skin")) palette = joint_matrices(nodes, nodes[node].at("skin"));
+        const Eigen::Affine3d still = palette.empty() ? global(nodes, node) : Eigen::Affine3d::Identity();
+        std::vector<std::pair<Numbers, Numbers>> sets;
+        for (int s = 0; !palette.empty() && primitive.at("attributes").contains("JOINTS_" + std::to_string(s)); ++s)
+            sets.emplace_back(accessor(primitive.at("attributes").at("JOINTS_" + std::to_string(s))),
+                              accessor(primitive.at("attributes").at("WEIGHTS_" + std::to_string(s))));
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            Eigen::Vector3d moved =
+                palette.empty() ? Eigen::Vector3d(still * vector(points[v])) : Eigen::Vector3d(0, 0, 0);
+            for (const auto& [joints, weights] : sets)
+                for (std::size_t k = 0; k < 4; ++k)
+                    moved += weights[v][k] * (palette.at(static_cast<std::size_t>(joints[v][k])) * vector(points[v]));
+            result.push_back({moved.x(), moved.y(), moved.z()});
+        }
+    }
+
+    void add_targets(const json& node, const json& mesh, const json& primitive, Numbers& points) const {
+        const json targets = primitive.value("targets", json::array());
+        std::vector<double> weights = mesh.value("weights", std::vector<double>(targets.size(), 0.0));
+        weights = node.value("weights", weights);
+        ASSERT_EQ(weights.size(), targets.size());
+        for (std::size_t t = 0; t < targets.size(); ++t) {
+            const Numbers deltas = accessor(targets[t].at("POSITION"));
+            for (std::size_t v = 0; v < points.size(); ++v)
+                for (std::size_t c = 0; c < 3; ++c) points[v][c] += weights[t] * deltas.at(v)[c];
+        }
+    }
+
+    [[nodiscard]] std::vector<Eigen::Affine3d> joint_matrices(const json& nodes, std::size_t skin) const {
+        const json& description = root().at("skins").at(skin);
+        const Numbers inverse = accessor(description.at("inverseBindMatrices"));
+        std::vector<Eigen::Affine3d> matrices;
+        for (std::size_t j = 0; j < description.at("joints").size(); ++j)
+            matrices.push_back(global(nodes, description.at("joints")[j]) *
+                               Eigen::Affine3d(Eigen::Map<const Eigen::Matrix4d>(inverse.at(j).data())));
+        return matrices;
+    }
+
+    GltfDocument document_;
+};
+
+}  // namespace mien::played
