@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// Morph targets of glTF 2.0 (specification, 3.7.2.2) with weights over time (3.11). A mesh gets the targets that move
+// one of its vertices, in the order of the track, on every one of its primitives, as the specification wants; a mesh
+// that nothing moves stays as it is. A target is a sparse accessor over zeros (3.6.2.3) where that takes fewer bytes.
+
+#include <algorithm>
+#include <cstdint>
+#include <fmt/format.h>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "io/gltf_base.hpp"
+#include "io/gltf_builder.hpp"
+#include "io/gltf_keys.hpp"
+
+#include "mien/error.hpp"
+#include "mien/io/gltf.hpp"
+
+namespace mien {
+
+namespace {
+
+using nlohmann::json;
+
+void check(const Mesh& mesh, const MorphTrack& track) {
+    const std::size_t values = track.times.size() * track.targets.size();
+    if (track.weights.size() != values)
+        throw Error(fmt::format("morphs: expected {} weights of {} targets in {} rows, found {}", values,
+                                track.targets.size(), track.times.size(), track.weights.size()));
+    for (const MorphTarget& target : track.targets) {
+        if (target.deltas.size() != target.vertices.size())
+            throw Error(fmt::format("morph \"{}\": expected {} deltas, found {}", target.name, target.vertices.size(),
+                                    target.deltas.size()));
+        for (const std::uint32_t v : target.vertices)
+            if (v >= vertex_count(mesh))
+                throw Error(fmt::format("morph \"{}\": expected vertices below {}, found {}", target.name,
+                                        vertex_count(mesh), v));
+    }
+}
+
+// One target on one primitive: which of its vertices move, and how far.
+struct Moved {
+    std::vector<std::uint32_t> at;
+    std::vector<Vec3f> deltas;
+};
+
+// `deltas`: how far the target moves each vertex of the head.
+Moved moved_of(const std::vector<Vec3f>& deltas, const WrittenPrimitive& written) {
+    Moved moved;
+    for (std::size_t i = 0; i < written.vertices.size(); ++i) {
+        const Vec3f& delta = deltas[written.vertices[i]];
+        if (delta == Vec3f{}) continue;
+        moved.at.push_back(static_cast<std::uint32_t>(i));
+        moved.deltas.push_back(delta);
+    }
+    return moved;
+}
+
+// The least and greatest delta; vertices that keep still count as zeros.
+void add_bounds(json& accessor, const Moved& moved, std::size_t vertices) {
+    const bool all = moved.at.size() == vertices;
+    Vec3f low = all ? moved.deltas.front() : Vec3f{}, high = low;
+    for (const Vec3f& d : moved.deltas) {
+        low = {std::min(low.x, d.x), std::min(low.y, d.y), std::min(low.z, d.z)};
+        high = {std::max(high.x, d.x), std::max(high.y, d.y), std::max(high.z, d.z)};
+    }
+    accessor["min"] = {low.x, low.y, low.z};
+    accessor["max"] = {high.x, high.y, high.z};
+}
+
+bool is_narrow(std::size_t vertices) {
+    return vertices <= std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1;
+}
+
+bool sparse_is_smaller(const Moved& moved, std::size_t vertices) {
+    const std::size_t index_size = is_narrow(vertices) ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
+    return moved.at.size() * (sizeof(Vec3f) + index_size) < vertices * sizeof(Vec3f);
+}
+
+json sparse_part(GltfDocument& document, const Moved& moved, std::size_t vertices) {
+    constexpr int uint16_component = 5123, uint32_component = 5125;
+    const bool narrow = is_narrow(vertices);
+    const std::vector<std::uint16_t> shorts(narrow ? moved.at.begin() : moved.at.end(), moved.at.end());
+    const std::size_t indices = append_view(
+        document, narrow ? std::as_bytes(std::span(shorts)) : std::as_bytes(std::span(moved.at)), BufferTarget::none);
+    const std::size_t values = append_view(document, std::as_bytes(std::span(moved.deltas)), BufferTarget::none);
+    const int component = narrow ? uint16_component : uint32_component;
+    return {{"count", moved.at.size()},
+            {"indices", {{"bufferView", indices}, {"componentType", component}}},
+            {"values", {{"bufferView", values}}}};
+}
+
+// An accessor of `vertices` deltas. Without a view of its own it is all zeros but for its sparse part.
+std::size_t append_deltas(GltfDocument& document, const Moved& moved, std::size_t vertices) {
+    if (!sparse_is_smaller(moved, vertices)) {
+        std::vector<Vec3f> dense(vertices);
+        for (std::size_t i = 0; i < moved.at.size(); ++i) dense[moved.at[i]] = moved.deltas[i];
+        return append_vectors(document, dense, BufferTarget::vertices, Bounds::given);
+    }
+    constexpr int float_component = 5126;
+    json accessor = {{"componentType", float_component}, {"count", vertices}, {"type", "VEC3"}};
+    add_bounds(accessor, moved, vertices);
+    if (!moved.at.empty()) accessor["sparse"] = sparse_part(document, moved, vertices);
+    return append_object(document, "accessors", std::move(accessor));
+}
+
+// What a mesh's own targets are: numbers of the track's, ascending.
+using Targets = std::vector<std::size_t>;
+using Primitives = std::span<const WrittenPrimitive>;
+
+void append_target(GltfDocument& document, Primitives primitives, const std::vector<Vec3f>& deltas) {
+    for (const WrittenPrimitive& written : primitives) {
+        const std::size_t accessor = append_deltas(document, moved_of(deltas, written), written.vertices.size());
+        json& primitive = document.json["meshes"][written.mesh]["primitives"][written.primitive];
+        primitive["targets"].push_back({{"POSITION", accessor}});
+    }
+}
+
+Targets append_targets(GltfDocument& document, Primitives primitives, const Mesh& mesh, const MorphTrack& track) {
+    Targets targets;
+    std::vector<Vec3f> deltas(vertex_count(mesh));
+    for (std::size_t t = 0; t < track.targets.size(); ++t) {
+        const MorphTarget& target = track.targets[t];
+        for (std::size_t i = 0; i < target.vertices.size(); ++i) deltas[target.vertices[i]] = target.deltas[i];
+        if (std::any_of(primitives.begin(), primitives.end(),
+                        [&](const WrittenPrimitive& written) { return !moved_of(deltas, written).at.empty(); })) {
+            append_target(document, primitives, deltas);
+            targets.push_back(t);
+        }
+        for (const std::uint32_t v : target.vertices) deltas[v] = {};
+    }
+    return targets;
+}
+
+void name_targets(json& mesh, const Targets& targets, const MorphTrack& track) {
+    json names = json::array();
+    for (const std::size_t t : targets) names.push_back(track.targets[t].name);
+    if (!mesh.contains("extras") || !mesh["extras"].is_object()) mesh["extras"] = json::object();
+    mesh["extras"]["targetNames"] = std::move(names);
+    mesh["weights"] = std::vector<float>(targets.size());
+}
+
+std::vector<float> weights_over_time(const MorphTrack& track, const Targets& targets, const Keys& keys) {
+    std::vector<float> weights;
+    for (const std::size_t r : keys.rows)
+        for (const std::size_t t : targets) weights.push_back(track.weights[r * track.targets.size() + t]);
+    return weights;
+}
+
+// The primitives of the document's mesh that hangs on a node.
+Primitives primitives_of(const BaseDocument& base, std::size_t node) {
+    const auto mesh = base.document.json.at("nodes").at(node).at("mesh").get<std::size_t>();
+    const auto is_before = [](const WrittenPrimitive& written, std::size_t number) { return written.mesh < number; };
+    const auto is_after = [](std::size_t number, const WrittenPrimitive& written) { return number < written.mesh; };
+    const auto first = std::lower_bound(base.primitives.begin(), base.primitives.end(), mesh, is_before);
+    return {first, std::upper_bound(first, base.primitives.end(), mesh, is_after)};
+}
+
+// A mesh that moves: the node that it hangs on and its targets.
+struct Moving {
+    std::size_t node;
+    Targets targets;
+};
+
+void append_animation(GltfDocument& document, const std::vector<Moving>& all, const MorphTrack& track) {
+    const Keys keys = keys_of(track.times);
+    if (all.empty() || keys.times.empty()) return;
+    const std::size_t input = append_floats(document, keys.times, Elements::scalar, BufferTarget::none, Bounds::given);
+    json samplers = json::array(), channels = json::array();
+    for (const Moving& moving : all) {
+        const std::vector<float> weights = weights_over_time(track, moving.targets, keys);
+        const std::size_t output = append_floats(document, weights, Elements::scalar, BufferTarget::none);
+        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", moving.node}, {"path", "weights"}}}});
+        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+    }
+    append_object(document, "animations",
+                  {{"name", "take"}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}});
+}
+
+}  // namespace
+
+std::vector<std::byte> format_glb(const Mesh& mesh, const MorphTrack& track) {
+    check(mesh, track);
+    BaseDocument base = base_document(mesh);
+    GltfDocument& document = base.document;
+    std::vector<Moving> all;
+    for (const std::size_t node : base.mesh_nodes) {
+        Targets targets = append_targets(document, primitives_of(base, node), mesh, track);
+        if (targets.empty()) continue;
+        name_targets(document.json["meshes"][document.json["nodes"][node]["mesh"].get<std::size_t>()], targets, track);
+        all.push_back({node, std::move(targets)});
+    }
+    append_animation(document, all, track);
+    return format_glb(document);
+}
+
+}  // namespace mien
