@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the mien authors
 
-// Members of a glTF's JSON whose type is looked at before they are used: whatever is wrong is named by its JSON pointer.
+// Members of a glTF's JSON whose type is looked at before they are used: whatever is wrong is named by its JSON
+// pointer.
 
 #pragma once
 

@@ -74,7 +74,8 @@ void check(const json& value, std::string_view pattern, std::size_t size, const 
         const json* member = find_member(value, step.c_str(), pointer);
         if (member != nullptr) check(*member, rest, size, to, pointer + '/' + step);
     } else if (value.is_array()) {
-        for (std::size_t i = 0; i < value.size(); ++i) check(value[i], rest, size, to, fmt::format("{}/{}", pointer, i));
+        for (std::size_t i = 0; i < value.size(); ++i)
+            check(value[i], rest, size, to, fmt::format("{}/{}", pointer, i));
     } else if (value.is_object()) {
         for (const auto& [name, member] : value.items()) check(member, rest, size, to, pointer + json_pointer({name}));
     } else {
