@@ -30,9 +30,9 @@ using Bytes = std::span<const std::byte>;
 constexpr const char* meshopt = "EXT_meshopt_compression";
 
 void check_asset(const json& root) {
-    if (!root.contains("asset")) fail_at("/asset", "an object", std::string_view("none"));
+    if (!root.contains("asset")) fail_at("/asset", "an object", "none");
     const std::string version = text_member(root["asset"], "version", "/asset");
-    if (version.substr(0, 2) != "2.") fail_at("/asset/version", "2.0", std::string_view(shown(version)));
+    if (version.substr(0, 2) != "2.") fail_at("/asset/version", "2.0", shown(version));
 }
 
 void check_arrays(const json& root) {
@@ -40,7 +40,7 @@ void check_arrays(const json& root) {
                              "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
         const json& array = array_member(root, name, "");
         for (std::size_t i = 0; i < array.size(); ++i)
-            if (!array[i].is_object()) fail_at(fmt::format("/{}/{}", name, i), "an object", array[i]);
+            if (!array[i].is_object()) fail_found(fmt::format("/{}/{}", name, i), "an object", array[i]);
     }
 }
 
@@ -58,7 +58,7 @@ void check_extensions(const json& root) {
     const json& required = array_member(root, "extensionsRequired", "");
     for (std::size_t i = 0; i < required.size(); ++i)
         if (!required[i].is_string() || !is_supported(required[i].get_ref<const std::string&>()))
-            fail_at(fmt::format("/extensionsRequired/{}", i), "an extension that is supported", required[i]);
+            fail_found(fmt::format("/extensionsRequired/{}", i), "an extension that is supported", required[i]);
 }
 
 // Where something lies in the binary.
@@ -130,8 +130,8 @@ void move_view(json& view, const std::vector<Place>& places, const std::string& 
     const std::uint64_t offset = whole_member(view, "byteOffset", pointer, 0);
     const std::uint64_t size = whole_member(view, "byteLength", pointer);
     if (place.state == Place::State::absent)
-        fail_at(pointer + "/buffer", "a buffer with bytes", std::string_view("one without uri and BIN chunk"));
-    if (size == 0) fail_at(pointer + "/byteLength", "at least 1", std::string_view("0"));
+        fail_at(pointer + "/buffer", "a buffer with bytes", "one without uri and BIN chunk");
+    if (size == 0) fail_at(pointer + "/byteLength", "at least 1", "0");
     const bool there = place.state == Place::State::there;
     if (there && offset + size > place.size)
         fail_at(pointer, fmt::format("an end at most at byte {} of its buffer", place.size),
@@ -147,7 +147,7 @@ void move_views(json& views, const std::vector<Place>& places) {
         const bool compressed = object_member(view, "extensions", pointer).contains(meshopt);
         const Place& place = places[whole_member(view, "buffer", pointer)];
         if (place.state == Place::State::fallback && !compressed)
-            fail_at(pointer, std::string("an extension ") + meshopt, std::string_view("none"));
+            fail_at(pointer, std::string("an extension ") + meshopt, "none");
         move_view(view, places, pointer);
         if (compressed) move_view(view["extensions"][meshopt], places, pointer + "/extensions/" + meshopt);
     }
@@ -156,7 +156,7 @@ void move_views(json& views, const std::vector<Place>& places) {
 // A picture with a uri becomes a buffer view. What is no picture is kept all the same: it does no harm to a mesh.
 void take_picture(Growing& out, json& root, json& image, const std::string& pointer) {
     const Place place = place_uri(out, text_member(image, "uri", pointer), pointer + "/uri");
-    if (place.size == 0) fail_at(pointer + "/uri", "a picture", std::string_view("no bytes"));
+    if (place.size == 0) fail_at(pointer + "/uri", "a picture", "no bytes");
     const std::string_view type = picture_type(Bytes(out.binary).subspan(place.offset, place.size));
     image.erase("uri");
     image["bufferView"] = element_count(root, "bufferViews");

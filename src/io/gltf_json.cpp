@@ -28,12 +28,12 @@ void fail_at(const std::string& pointer, std::string_view expected, std::string_
     throw Error(fmt::format("gltf {}: expected {}, found {}", pointer.empty() ? "/" : pointer, expected, found));
 }
 
-void fail_at(const std::string& pointer, std::string_view expected, const json& found) {
-    fail_at(pointer, expected, std::string_view(shown_json(found)));
+void fail_found(const std::string& pointer, std::string_view expected, const json& found) {
+    fail_at(pointer, expected, shown_json(found));
 }
 
 const json* find_member(const json& object, const char* name, const std::string& pointer) {
-    if (!object.is_object()) fail_at(pointer, "an object", object);
+    if (!object.is_object()) fail_found(pointer, "an object", object);
     const auto found = object.find(name);
     return found == object.end() ? nullptr : &*found;
 }
@@ -41,14 +41,14 @@ const json* find_member(const json& object, const char* name, const std::string&
 const json& array_member(const json& object, const char* name, const std::string& pointer) {
     static const json none = json::array();
     const json* found = find_member(object, name, pointer);
-    if (found != nullptr && !found->is_array()) fail_at(below(pointer, name), "an array", *found);
+    if (found != nullptr && !found->is_array()) fail_found(below(pointer, name), "an array", *found);
     return found == nullptr ? none : *found;
 }
 
 const json& object_member(const json& object, const char* name, const std::string& pointer) {
     static const json none = json::object();
     const json* found = find_member(object, name, pointer);
-    if (found != nullptr && !found->is_object()) fail_at(below(pointer, name), "an object", *found);
+    if (found != nullptr && !found->is_object()) fail_found(below(pointer, name), "an object", *found);
     return found == nullptr ? none : *found;
 }
 
@@ -56,10 +56,10 @@ std::uint64_t whole_number(const json& value, const std::string& pointer) {
     constexpr const char* expected = "a whole number from 0 to 2^53";
     if (value.is_number_unsigned() && value.get<std::uint64_t>() <= largest_whole) return value.get<std::uint64_t>();
     // Some exporters write 3.0 where 3 is meant, which JSON does not tell apart.
-    if (!value.is_number_float()) fail_at(pointer, expected, value);
+    if (!value.is_number_float()) fail_found(pointer, expected, value);
     const auto number = value.get<double>();
     if (!(number >= 0 && number <= static_cast<double>(largest_whole)) || std::floor(number) != number)
-        fail_at(pointer, expected, value);
+        fail_found(pointer, expected, value);
     return static_cast<std::uint64_t>(number);
 }
 
@@ -72,19 +72,19 @@ std::optional<std::uint64_t> find_whole(const json& object, const char* name, co
 std::uint64_t whole_member(const json& object, const char* name, const std::string& pointer,
                            std::optional<std::uint64_t> fallback) {
     const std::optional<std::uint64_t> found = find_whole(object, name, pointer);
-    if (!found && !fallback) fail_at(below(pointer, name), "a whole number", std::string_view("none"));
+    if (!found && !fallback) fail_at(below(pointer, name), "a whole number", "none");
     return found ? *found : *fallback;
 }
 
 bool bool_member(const json& object, const char* name, const std::string& pointer) {
     const json* found = find_member(object, name, pointer);
-    if (found != nullptr && !found->is_boolean()) fail_at(below(pointer, name), "true or false", *found);
+    if (found != nullptr && !found->is_boolean()) fail_found(below(pointer, name), "true or false", *found);
     return found != nullptr && found->get<bool>();
 }
 
 std::string text_member(const json& object, const char* name, const std::string& pointer) {
     const json* found = find_member(object, name, pointer);
-    if (found != nullptr && !found->is_string()) fail_at(below(pointer, name), "a text", *found);
+    if (found != nullptr && !found->is_string()) fail_found(below(pointer, name), "a text", *found);
     return found == nullptr ? std::string() : found->get<std::string>();
 }
 

@@ -17,7 +17,7 @@ namespace mien {
 
 /// Throws Error: "gltf /accessors/3/count: expected ..., found ...".
 [[noreturn]] void fail_at(const std::string& pointer, std::string_view expected, std::string_view found);
-[[noreturn]] void fail_at(const std::string& pointer, std::string_view expected, const nlohmann::json& found);
+[[noreturn]] void fail_found(const std::string& pointer, std::string_view expected, const nlohmann::json& found);
 
 /// The member, or null where there is none. Throws Error if `object` is none.
 const nlohmann::json* find_member(const nlohmann::json& object, const char* name, const std::string& pointer);

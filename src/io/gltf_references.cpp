@@ -62,7 +62,7 @@ constexpr std::array references{
 
 void check_number(const json& value, std::size_t size, const char* to, const std::string& pointer) {
     if (whole_number(value, pointer) >= size)
-        fail_at(pointer, fmt::format("one of the {} elements of {}", size, to), value);
+        fail_found(pointer, fmt::format("one of the {} elements of {}", size, to), value);
 }
 
 // Goes down the pattern, at most as deep as it is long.
@@ -79,7 +79,7 @@ void check(const json& value, std::string_view pattern, std::size_t size, const 
     } else if (value.is_object()) {
         for (const auto& [name, member] : value.items()) check(member, rest, size, to, pointer + json_pointer({name}));
     } else {
-        fail_at(pointer, "an array or an object", value);
+        fail_found(pointer, "an array or an object", value);
     }
 }
 

@@ -35,14 +35,14 @@ std::string_view unpadded(std::string_view text) {
 std::vector<std::byte> decode_base64(std::string_view text, const std::string& pointer) {
     static const std::array<std::uint8_t, 256> values = digit_values();
     const std::string_view body = unpadded(text);
-    if (body.size() % 4 == 1) fail_at(pointer, "base64 in whole groups", std::string_view("one digit left over"));
+    if (body.size() % 4 == 1) fail_at(pointer, "base64 in whole groups", "one digit left over");
     std::vector<std::byte> bytes;
     bytes.reserve(body.size() / 4 * 3 + 2);
     std::uint32_t bits = 0;
     unsigned waiting = 0;
     for (const char c : body) {
         const std::uint8_t value = values[static_cast<unsigned char>(c)];
-        if (value == no_digit) fail_at(pointer, "base64", std::string_view(shown(std::string_view(&c, 1))));
+        if (value == no_digit) fail_at(pointer, "base64", shown(std::string_view(&c, 1)));
         bits = bits << 6 | value;
         waiting += 6;
         if (waiting < 8) continue;
@@ -85,7 +85,7 @@ std::vector<std::byte> decode_data_uri(std::string_view uri, const std::string& 
     constexpr std::string_view mark = ";base64";
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos || comma < mark.size() || uri.substr(comma - mark.size(), mark.size()) != mark)
-        fail_at(pointer, "a data: URI with ;base64,", std::string_view(shown(uri)));
+        fail_at(pointer, "a data: URI with ;base64,", shown(uri));
     return decode_base64(uri.substr(comma + 1), pointer);
 }
 
@@ -94,7 +94,7 @@ std::string relative_path(std::string_view uri, const std::string& pointer) {
     const bool absolute = path.empty() || path[0] == '/' || path[0] == '\\';
     const bool scheme = uri.substr(0, uri.find('/')).find(':') != std::string_view::npos;
     if (absolute || scheme || path.find('\0') != std::string::npos)
-        fail_at(pointer, "a relative uri of a file beside the document", std::string_view(shown(uri)));
+        fail_at(pointer, "a relative uri of a file beside the document", shown(uri));
     return path;
 }
 
