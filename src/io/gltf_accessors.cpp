@@ -175,28 +175,17 @@ std::uint32_t load_whole(const std::byte* at, Number number) {
     }
 }
 
-bool is_whole(Number number) {
-    return number == Number::uint8 || number == Number::uint16 || number == Number::uint32;
+void check_whole(Number number, const std::string& pointer) {
+    if (number != Number::uint8 && number != Number::uint16 && number != Number::uint32)
+        fail_at(pointer + "/componentType", "5121, 5123 or 5125", std::to_string(static_cast<unsigned>(number)));
 }
 
 // The part of an accessor that differs from what lies in its view (or from zeros).
 struct Sparse {
-    std::vector<std::uint32_t> indices;  // ascending, each below the accessor's count
-    Run values;
+    std::string pointer;
+    Number number = Number::uint32;  // of the indices
+    Run indices, values;
 };
-
-std::vector<std::uint32_t> sparse_indices(const Run& run, Number number, std::uint64_t count,
-                                          const std::string& pointer) {
-    std::vector<std::uint32_t> indices(run.count);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        indices[i] = load_whole(run.begin + i * run.stride, number);
-        if (indices[i] >= count)
-            fail_at(pointer, fmt::format("indices below {}", count), fmt::format("{} as number {}", indices[i], i));
-        if (i > 0 && indices[i] <= indices[i - 1])
-            fail_at(pointer, "ascending indices", fmt::format("{} after {}", indices[i], indices[i - 1]));
-    }
-    return indices;
-}
 
 std::optional<Sparse> sparse_of(const GltfDocument& document, const Accessor& accessor, const json& value) {
     if (!value.contains("sparse")) return std::nullopt;
@@ -206,14 +195,26 @@ std::optional<Sparse> sparse_of(const GltfDocument& document, const Accessor& ac
     if (count > accessor.count)
         fail_at(pointer + "/count", fmt::format("at most {}", accessor.count), std::to_string(count));
     const json& indices = object_member(sparse, "indices", pointer);
-    const std::string below = pointer + "/indices";
-    const Number number = number_at(indices, below);
-    if (!is_whole(number)) fail_at(below + "/componentType", "5121, 5123 or 5125", fmt::format("{}", int(number)));
-    const Run run = run_in_view(document, indices, count, size_of(number), false, below);
+    const json& values = object_member(sparse, "values", pointer);
+    const Number number = number_at(indices, pointer + "/indices");
+    check_whole(number, pointer + "/indices");
     const std::uint64_t size = element_size(accessor.type, accessor.number);
-    return Sparse{
-        sparse_indices(run, number, accessor.count, below),
-        run_in_view(document, object_member(sparse, "values", pointer), count, size, false, pointer + "/values")};
+    return Sparse{pointer, number, run_in_view(document, indices, count, size_of(number), false, pointer + "/indices"),
+                  run_in_view(document, values, count, size, false, pointer + "/values")};
+}
+
+// Ascending, each below the accessor's count.
+std::vector<std::uint32_t> sparse_indices(const Sparse& sparse, std::uint64_t count) {
+    const std::string pointer = sparse.pointer + "/indices";
+    std::vector<std::uint32_t> indices(sparse.indices.count);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        indices[i] = load_whole(sparse.indices.begin + i * sparse.indices.stride, sparse.number);
+        if (indices[i] >= count)
+            fail_at(pointer, fmt::format("indices below {}", count), fmt::format("{} as number {}", indices[i], i));
+        if (i > 0 && indices[i] <= indices[i - 1])
+            fail_at(pointer, "ascending indices", fmt::format("{} after {}", indices[i], indices[i - 1]));
+    }
+    return indices;
 }
 
 // The elements that lie in a view of their own; none where all are zeros.
@@ -238,9 +239,11 @@ std::vector<T> read_elements(const GltfDocument& document, std::size_t index, co
     std::vector<T> numbers(accessor.count * accessor.type.components);
     for (std::size_t i = 0; i < dense.count; ++i)
         load_element(dense.begin + i * dense.stride, numbers.data() + i * accessor.type.components);
-    for (std::size_t i = 0; sparse && i < sparse->indices.size(); ++i)
+    if (!sparse) return numbers;
+    const std::vector<std::uint32_t> indices = sparse_indices(*sparse, accessor.count);
+    for (std::size_t i = 0; i < indices.size(); ++i)
         load_element(sparse->values.begin + i * sparse->values.stride,
-                     numbers.data() + std::size_t{sparse->indices[i]} * accessor.type.components);
+                     numbers.data() + std::size_t{indices[i]} * accessor.type.components);
     return numbers;
 }
 
@@ -254,8 +257,7 @@ std::vector<std::uint32_t> read_whole(const GltfDocument& document, std::size_t 
                                       const std::string& pointer) {
     const Accessor accessor = accessor_at(document, index);
     check_components(accessor, components, pointer);
-    if (!is_whole(accessor.number))
-        fail_at(accessor.pointer + "/componentType", "5121, 5123 or 5125", fmt::format("{}", int(accessor.number)));
+    check_whole(accessor.number, accessor.pointer);
     const std::size_t size = size_of(accessor.number);
     return read_elements<std::uint32_t>(document, index, accessor, [&](const std::byte* from, std::uint32_t* to) {
         for (unsigned c = 0; c < components; ++c) to[c] = load_whole(from + c * size, accessor.number);
