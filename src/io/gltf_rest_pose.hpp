@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/glb.hpp"
+#include "io/gltf_nodes.hpp"
+
+namespace mien {
+
+/// Where a mesh of the document lies in the scene.
+struct Standing {
+    std::optional<std::size_t> node;  ///< the first node of the traversal that uses the mesh
+    Affine world;                     ///< of that node
+    std::vector<Affine> joints;       ///< of its skin: joint to scene after inverse bind; empty without a skin
+};
+
+/// Where every mesh of the document lies. A mesh that no node of the scene uses lies as it is.
+std::vector<Standing> standings(const GltfDocument& document);
+
+/// The maps of a primitive's vertices to the scene: one for all of them, or for a skinned primitive one a vertex,
+/// Σ weight · joint. `pointer` is the primitive's.
+std::vector<Affine> vertex_maps(const GltfDocument& document, const Standing& standing, const nlohmann::json& primitive,
+                                std::size_t vertices, const std::string& pointer);
+
+}  // namespace mien
