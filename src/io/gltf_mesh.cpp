@@ -188,9 +188,10 @@ std::vector<std::string> target_names(const json& mesh, std::size_t targets) {
     std::set<std::string> taken;
     for (std::size_t t = 0; t < targets; ++t) {
         const bool named = given != nullptr && given->is_array() && t < given->size() && (*given)[t].is_string();
-        std::string name = named ? (*given)[t].get<std::string>() : std::string();
+        std::string name;
+        if (named) (*given)[t].get_to(name);
         if (name.empty()) name = fmt::format("morph_{}", t + 1);
-        if (!taken.insert(name).second) name = fmt::format("{}_{}", name, t + 1);
+        if (!taken.insert(name).second) name += fmt::format("_{}", t + 1);
         taken.insert(name);
         names.push_back(std::move(name));
     }
@@ -278,7 +279,7 @@ Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     const std::vector<Standing> stands = standings(document);
     for (std::size_t m = 0; m < stands.size(); ++m) add_mesh(out, m, stands[m]);
     if (!out.any_uvs) out.mesh.corner_uvs.clear();
-    out.mesh.unit = "m";
+    out.mesh.unit.assign(1, 'm');
     out.mesh.gltf = format_glb(document);
     return std::move(out.mesh);
 }
