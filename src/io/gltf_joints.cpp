@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "io/gltf_builder.hpp"
+#include "io/gltf_keys.hpp"
 #include "io/gltf_skin.hpp"
 
 #include "mien/io/gltf.hpp"
@@ -28,24 +29,6 @@ struct Track {
     std::vector<float> rest;
     std::vector<float> values;
 };
-
-// The rows that get a key, and its time: seconds since the take began. Rows so close that floats cannot tell their
-// times apart give way to the first of them.
-struct Keys {
-    std::vector<std::size_t> rows;
-    std::vector<float> times;
-};
-
-Keys keys_of(const Take& take) {
-    Keys keys;
-    for (std::size_t r = 0; r < row_count(take); ++r) {
-        const auto time = static_cast<float>(take.times[r] - take.times.front());
-        if (r > 0 && !(time > keys.times.back())) continue;
-        keys.rows.push_back(r);
-        keys.times.push_back(time);
-    }
-    return keys;
-}
 
 // Appends a rotation of length 1 on the side of the one before it, so that what lies between takes the short way.
 void append_rotation(std::vector<float>& values, const Quaternion& q) {
@@ -125,7 +108,7 @@ std::vector<std::byte> format_glb(const Mesh& mesh, const Rig& rig, const Skin& 
                                   const GltfOptions& options) {
     BaseDocument base = base_document(mesh);
     const JointNodes nodes = append_skin(base, rig, skin);
-    const Keys keys = keys_of(take);
+    const Keys keys = keys_of(take.times);
     std::vector<Track> tracks = joint_tracks(rig, take, keys, nodes);
     if (options.head_motion && !take.head.empty()) {
         std::vector<Track> head = head_tracks(take, keys, nodes);

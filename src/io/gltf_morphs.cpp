@@ -76,8 +76,9 @@ bool is_narrow(std::size_t vertices) {
 }
 
 bool sparse_is_smaller(const Moved& moved, std::size_t vertices) {
+    constexpr std::size_t json_of_sparse_part = 160;
     const std::size_t index_size = is_narrow(vertices) ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
-    return moved.at.size() * (sizeof(Vec3f) + index_size) < vertices * sizeof(Vec3f);
+    return moved.at.size() * (sizeof(Vec3f) + index_size) + json_of_sparse_part < vertices * sizeof(Vec3f);
 }
 
 json sparse_part(GltfDocument& document, const Moved& moved, std::size_t vertices) {
@@ -93,8 +94,10 @@ json sparse_part(GltfDocument& document, const Moved& moved, std::size_t vertice
             {"values", {{"bufferView", values}}}};
 }
 
-// An accessor of `vertices` deltas. Without a view of its own it is all zeros but for its sparse part.
+// An accessor of `vertices` deltas. Without a view of its own it is all zeros but for its sparse part; one with neither
+// would be right too, but programs stumble over it, so a vertex that moves by nothing is named.
 std::size_t append_deltas(GltfDocument& document, const Moved& moved, std::size_t vertices) {
+    if (moved.at.empty()) return append_deltas(document, {{0}, {Vec3f{}}}, vertices);
     if (!sparse_is_smaller(moved, vertices)) {
         std::vector<Vec3f> dense(vertices);
         for (std::size_t i = 0; i < moved.at.size(); ++i) dense[moved.at[i]] = moved.deltas[i];
@@ -103,7 +106,7 @@ std::size_t append_deltas(GltfDocument& document, const Moved& moved, std::size_
     constexpr int float_component = 5126;
     json accessor = {{"componentType", float_component}, {"count", vertices}, {"type", "VEC3"}};
     add_bounds(accessor, moved, vertices);
-    if (!moved.at.empty()) accessor["sparse"] = sparse_part(document, moved, vertices);
+    accessor["sparse"] = sparse_part(document, moved, vertices);
     return append_object(document, "accessors", std::move(accessor));
 }
 
