@@ -1,35 +1,48 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the mien authors
 
+// Meshopt comes first: it works on buffer views, and Draco's bytes lie in one.
+
 #include "io/gltf_codecs.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
 
-#include "io/gltf_json.hpp"
+#include "io/gltf_decompress.hpp"
+#include "io/gltf_numbers.hpp"
 
 namespace mien {
 
 namespace {
 
-using nlohmann::json;
-
-void refuse(const json& owner, const char* extension, const std::string& pointer) {
-    const json& extensions = object_member(owner, "extensions", pointer);
-    if (extensions.contains(extension)) fail_at(pointer, "data that are not compressed", extension);
+void forget_extension(nlohmann::json& root, const char* name) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        if (!root.contains(list)) continue;
+        nlohmann::json& names = root[list];
+        names.erase(std::remove(names.begin(), names.end(), name), names.end());
+        if (names.empty()) root.erase(list);
+    }
 }
 
 }  // namespace
 
+std::size_t append_bytes(GltfDocument& document, std::span<const std::byte> bytes) {
+    document.binary.resize((document.binary.size() + 3) / 4 * 4);
+    const std::size_t offset = document.binary.size();
+    document.binary.insert(document.binary.end(), bytes.begin(), bytes.end());
+    return offset;
+}
+
+void remove_extension(nlohmann::json& object, const char* name) {
+    object["extensions"].erase(name);
+    if (object["extensions"].empty()) object.erase("extensions");
+}
+
 void decompress(GltfDocument& document) {
-    const json& views = array_member(document.json, "bufferViews", "");
-    for (std::size_t i = 0; i < views.size(); ++i)
-        refuse(views[i], "EXT_meshopt_compression", fmt::format("/bufferViews/{}", i));
-    const json& meshes = array_member(document.json, "meshes", "");
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const std::string pointer = fmt::format("/meshes/{}/primitives", m);
-        for (const json& primitive : array_member(meshes[m], "primitives", pointer))
-            refuse(primitive, "KHR_draco_mesh_compression", pointer);
-    }
+    const bool meshopt = decompress_meshopt(document);
+    const bool draco = decompress_draco(document);
+    forget_extension(document.json, "EXT_meshopt_compression");
+    forget_extension(document.json, "KHR_draco_mesh_compression");
+    if (meshopt || draco) drop_unused_numbers(document);
 }
 
 }  // namespace mien
