@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
-#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -175,6 +175,10 @@ BaseDocument source_document(const Mesh& mesh) {
     return base;
 }
 
+[[noreturn]] void fail_on(const char* found) {
+    throw Error(fmt::format("gltf: expected the document of the head as a reader leaves it, found {}", found));
+}
+
 }  // namespace
 
 BaseDocument base_document(const Mesh& mesh) {
@@ -182,9 +186,10 @@ BaseDocument base_document(const Mesh& mesh) {
         BaseDocument base = mesh.gltf.empty() ? fresh_document(mesh) : source_document(mesh);
         base.document.json["asset"]["generator"] = "mien";
         return base;
-    } catch (const nlohmann::json::exception& wrong) {
-        throw Error(
-            fmt::format("gltf: expected the document of the head as a reader leaves it, found {}", wrong.what()));
+    } catch (const json::exception& wrong) {
+        fail_on(wrong.what());
+    } catch (const std::out_of_range& wrong) {
+        fail_on(wrong.what());
     }
 }
 

@@ -114,7 +114,7 @@ TEST(Base, materials_cameras_nodes_and_extras_survive_and_motion_goes) {
     EXPECT_THAT(gltf_scene::numbers(base.document, attributes(base.document)["TEXCOORD_0"]),
                 ElementsAre(0, 0, 1, 0, 0, 1));
     EXPECT_EQ(root["accessors"].size(), 5U) << "positions, normals, tangents, texture coordinates, indices";
-    EXPECT_EQ(base.document.binary.size(), 36U + 36 + 48 + 24 + 6);
+    EXPECT_EQ(base.document.binary.size(), 36U + 36 + 48 + 24 + 8) << "indices are padded";
 }
 
 TEST(Base, the_mesh_stands_in_the_scene_on_a_root_without_a_transform) {

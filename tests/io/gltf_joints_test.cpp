@@ -44,7 +44,10 @@ Head head(std::uint32_t points = 3, std::uint32_t influences = 4) {
     for (std::uint32_t v = 0; v < vertex_count(made.mesh); ++v) {
         std::vector<double> weights;
         for (std::uint32_t k = 0; k < influences; ++k) weights.push_back(1.0 / (1 + (v * 7 + k * k) % 11));
-        if (v < skin_vertices) weights[influences - 1] = 0;
+        if (v < skin_vertices)
+            weights[influences - 1] = 0;
+        else
+            weights = {1}, weights.resize(influences);
         const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
         for (std::uint32_t k = 0; k < influences; ++k) {
             const std::size_t joint = v < skin_vertices ? (v + k) % (points + 2) : points + 2;
