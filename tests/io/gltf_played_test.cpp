@@ -14,6 +14,7 @@
 #include <numbers>
 #include <set>
 
+#include "io/gltf_builder.hpp"
 #include "io/gltf_player.hpp"
 #include "shapes.hpp"
 
@@ -290,6 +291,98 @@ TEST(PlayedMorphs, leave_other_meshes_still) {
     EXPECT_LE(largest_distance(player.positions(1), sources(player, mesh),
                                [&](std::uint32_t v) { return morphed(mesh, track, v, 1); }),
               rounding);
+}
+
+// A document whose only mesh has two primitives, three and four vertices, and hangs under nodes that move, turn,
+// stretch and mirror it; a camera hangs on the same node.
+Mesh two_primitives_in_a_tree() {
+    GltfDocument document;
+    const auto primitive = [&](const std::vector<Vec3f>& points, const std::vector<std::uint32_t>& triangles) {
+        json attributes;
+        attributes["POSITION"] = append_vectors(document, points, BufferTarget::vertices, Bounds::given);
+        attributes["NORMAL"] =
+            append_vectors(document, std::vector<Vec3f>(points.size(), {0, 0, 1}), BufferTarget::vertices);
+        const std::size_t indices = append_indices(document, triangles);
+        return json{{"attributes", attributes}, {"indices", indices}, {"material", 0}};
+    };
+    json primitives = json::array();
+    primitives.push_back(primitive({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}));
+    primitives.push_back(primitive({{2, 0, 0.5F}, {3, 0, 0}, {3, 1, 0}, {2, 1, 1}}, {0, 1, 2, 0, 2, 3}));
+    document.json["asset"]["version"] = "2.0";
+    document.json["meshes"] = {{{"name", "pair"}, {"primitives", primitives}}};
+    document.json["materials"] = {{{"name", "blue"}}};
+    document.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    document.json["nodes"] = {
+        {{"translation", {5, 6, 7}}, {"children", {1}}},
+        {{"mesh", 0}, {"camera", 0}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"scale", {2, -3, 0.5}}}};
+    document.json["scenes"] = {{{"nodes", {0}}}};
+    return parse_gltf(format_glb(document), nullptr);
+}
+
+TEST(PlayedSource, leaves_its_tree_and_stands_where_it_stood) {
+    const Mesh mesh = two_primitives_in_a_tree();
+    ASSERT_EQ(vertex_count(mesh), 7U);
+    EXPECT_LE(distance(to_double(mesh.positions[2]), {5 + 3, 6, 7}), rounding);  // y times -3, turned to +x
+    const Player player(format_glb(mesh, MorphTrack{}));
+    const std::vector<Vec3> shown = player.positions(0);
+    for (std::size_t v = 0; v < 7; ++v) EXPECT_LE(distance(shown.at(v), to_double(mesh.positions[v])), rounding);
+    EXPECT_EQ(player.root()["nodes"][1]["camera"], 0);
+    EXPECT_EQ(player.root()["meshes"][0]["primitives"][1]["material"], 0);
+    EXPECT_EQ(player.root()["materials"][0]["name"], "blue");
+}
+
+// Mirrored by its scale, the first triangle's normal still looks to +z and its corners still go round it.
+TEST(PlayedSource, keeps_the_outside_of_a_mirrored_mesh_outside) {
+    const Mesh mesh = two_primitives_in_a_tree();
+    const Player player(format_glb(mesh, MorphTrack{}));
+    const json& primitive = player.root().at("meshes")[0].at("primitives")[0];
+    const auto points = player.accessor(primitive.at("attributes").at("POSITION"));
+    const auto corners = player.accessor(primitive.at("indices"));
+    const auto at = [&](std::size_t corner) {
+        const auto& p = points.at(static_cast<std::size_t>(corners.at(corner)[0]));
+        return Vec3{p[0], p[1], p[2]};
+    };
+    const auto normal = player.accessor(primitive.at("attributes").at("NORMAL"))[0];
+    const Vec3 winding = cross(at(1) - at(0), at(2) - at(0));
+    EXPECT_NEAR(normal[2], 1, rounding);
+    EXPECT_GT(winding.z, 0);
+}
+
+TEST(PlayedSource, performs_by_targets_on_all_primitives_of_a_mesh) {
+    const Mesh mesh = two_primitives_in_a_tree();
+    MorphTrack track;
+    track.targets = {{"second only", {3, 6}, {{0, 1, 0}, {0, 0, -1}}}, {"first only", {1}, {{1, 1, 1}}}};
+    track.times = {1, 2};
+    track.weights = {0, 0, 0.5F, 2};
+    const Player player(format_glb(mesh, track));
+    for (const json& primitive : player.root().at("meshes")[0].at("primitives"))
+        EXPECT_EQ(primitive.at("targets").size(), 2U);
+    const std::vector<Vec3> shown = player.positions(player.duration());
+    for (std::uint32_t v = 0; v < 7; ++v) EXPECT_LE(distance(shown.at(v), morphed(mesh, track, v, 1)), rounding);
+}
+
+TEST(PlayedSource, performs_by_joints_in_scene_space) {
+    const Mesh mesh = two_primitives_in_a_tree();
+    Performer p{mesh, {}, {}, {}};
+    p.rig.rest = mesh.positions;
+    p.rig.points = {shapes::point_at(mesh, "a", 1), shapes::point_at(mesh, "b", 4)};
+    p.rig.row_starts.assign(8, 0);
+    for (std::uint32_t v = 0; v < 7; ++v) weigh_vertex(p, v, false);
+    p.take = {{"a"}, {0, 1}, {p.rig.points[0].position, p.rig.points[0].position + Vec3{1, 2, 3}}, {}, "", false};
+    const Player player(format_glb(mesh, p.rig, p.skin, p.take));
+    const std::vector<Vec3> shown = player.positions(1);
+    for (std::uint32_t v = 0; v < 7; ++v) EXPECT_LE(distance(shown.at(v), skinned(p, v, poses_in_row(p, 1))), rounding);
+}
+
+// What was written is read back as the same head, and written again as the same bytes.
+TEST(PlayedSource, is_read_back_as_it_was_written) {
+    const Mesh mesh = two_primitives_in_a_tree();
+    const Mesh once = parse_gltf(format_glb(mesh, MorphTrack{}), nullptr);
+    EXPECT_EQ(once.positions, mesh.positions);
+    EXPECT_EQ(once.face_starts, mesh.face_starts);
+    const Performer p = moving();
+    const Mesh skinned_head = parse_gltf(format_glb(p.mesh, p.rig, p.skin, p.take), nullptr);
+    EXPECT_EQ(skinned_head.positions, p.mesh.positions);
 }
 
 }  // namespace
