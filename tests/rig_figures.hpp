@@ -13,12 +13,15 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mien/algorithms/deform.hpp"
 #include "mien/face.hpp"
-#include "mien/io/read.hpp"
+#include "mien/io/gltf.hpp"
+#include "mien/io/points.hpp"
 #include "mien/rig.hpp"
 
 namespace mien::figures {
@@ -38,10 +41,17 @@ inline std::filesystem::path folder() {
     return std::filesystem::path(MIEN_SHARED) / "data" / "ict";
 }
 
+inline std::string contents(const std::string& name) {
+    std::ifstream file(folder() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 inline Subject read_subject() {
-    Subject subject{read_face(folder() / "ict_face.glb", folder() / "feature_points.json"), {}};
-    std::ifstream file(folder() / "feature_points.json");
-    subject.sets = nlohmann::json::parse(file).at("_sets");
+    const std::string head = contents("ict_face.glb"), points = contents("feature_points.json");
+    const auto none_beside = [](std::string_view) { return std::vector<std::byte>(); };
+    Subject subject{{parse_gltf(std::as_bytes(std::span(head)), none_beside), {}},
+                    nlohmann::json::parse(points).at("_sets")};
+    subject.face.points = parse_points(std::as_bytes(std::span(points)), subject.face.mesh).points;
     return subject;
 }
 
