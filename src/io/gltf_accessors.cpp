@@ -290,6 +290,10 @@ std::vector<std::uint32_t> read_joints(const GltfDocument& document, std::size_t
     return read_whole(document, accessor, 4, pointer);
 }
 
+std::size_t element_width(const json& accessor, const std::string& pointer) {
+    return type_at(accessor, pointer).components;
+}
+
 std::vector<float> read_floats(const GltfDocument& document, std::size_t index, unsigned components,
                                const std::string& pointer) {
     const Accessor accessor = accessor_at(document, index);

@@ -19,6 +19,9 @@ void check_accessors(const GltfDocument& document);
 /// How many elements an accessor has.
 std::size_t accessor_count(const GltfDocument& document, std::size_t accessor);
 
+/// Numbers per element of an accessor, by its `type` ("VEC3": 3). `pointer` is the accessor's.
+std::size_t element_width(const nlohmann::json& accessor, const std::string& pointer);
+
 /// All numbers of an accessor of `components` numbers an element: interleaved, sparse and normalized ones too. Throws
 /// Error if it has another type, or a number is not finite. `pointer` names who asks.
 std::vector<float> read_floats(const GltfDocument& document, std::size_t accessor, unsigned components,

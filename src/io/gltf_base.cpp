@@ -7,17 +7,19 @@
 
 #include "io/gltf_base.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "io/gltf_accessors.hpp"
 #include "io/gltf_builder.hpp"
 #include "io/gltf_fresh.hpp"
-#include "io/gltf_numbers.hpp"
-#include "io/gltf_placement.hpp"
+#include "io/gltf_rest_pose.hpp"
+#include "io/gltf_unused.hpp"
 
 #include "mien/error.hpp"
 
@@ -69,43 +71,73 @@ void drop_motion(json& root) {
     }
 }
 
-std::vector<Vec3> vectors_of(const GltfDocument& document, std::size_t accessor, std::vector<double>* fourth) {
-    const std::size_t width = element_width(document.json.at("accessors").at(accessor));
-    const std::vector<double> numbers = accessor_numbers(document, accessor);
-    if (width < 3)
-        throw Error(fmt::format("gltf /accessors/{}: expected vectors, found {} numbers each", accessor, width));
-    std::vector<Vec3> vectors;
-    for (std::size_t i = 0; i < numbers.size(); i += width) {
-        vectors.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
-        if (fourth && width > 3) fourth->push_back(numbers[i + 3]);
-    }
-    return vectors;
+// How the vertices of one primitive come into the scene.
+struct Placement {
+    std::vector<Affine> maps;  // one for all vertices, or one for each
+
+    [[nodiscard]] const Affine& map(std::size_t vertex) const { return maps.size() == 1 ? maps[0] : maps[vertex]; }
+    [[nodiscard]] bool mirrors() const { return maps.size() == 1 && determinant(maps[0]) < 0; }
+};
+
+// The inverse transpose times |det|, which needs no division, applied to a normal.
+Vec3 turned_normal(const Affine& map, const Vec3& normal) {
+    const auto& c = map.columns;
+    const double sign = determinant(map) < 0 ? -1 : 1;
+    return sign * (normal.x * cross(c[1], c[2]) + normal.y * cross(c[2], c[0]) + normal.z * cross(c[0], c[1]));
 }
 
 Vec3f unit(const Vec3& v, const Vec3& otherwise) {
     const double size = length(v);
-    return to_float(size > 0 && is_finite(v) ? v / size : otherwise);
+    return to_float(size > 0 && std::isfinite(size) ? v / size : otherwise);
 }
 
-void place_normals(GltfDocument& document, json& attributes, const Placement& placement) {
-    const std::vector<Vec3> source = vectors_of(document, attributes["NORMAL"].get<std::size_t>(), nullptr);
+void place_normals(GltfDocument& document, json& attributes, const Placement& placement, const std::string& pointer) {
+    const std::vector<float> n =
+        read_floats(document, attributes["NORMAL"].get<std::size_t>(), 3, pointer + "/attributes/NORMAL");
     std::vector<Vec3f> placed;
-    for (std::size_t v = 0; v < source.size(); ++v)
-        placed.push_back(unit(normal_map(placement.linear(v)) * source[v], {0, 0, 1}));
+    for (std::size_t v = 0; v < n.size() / 3; ++v) {
+        const Vec3 normal{n[3 * v], n[3 * v + 1], n[3 * v + 2]};
+        placed.push_back(unit(turned_normal(placement.map(v), normal), {0, 0, 1}));
+    }
     attributes["NORMAL"] = append_vectors(document, placed, BufferTarget::vertices);
 }
 
-void place_tangents(GltfDocument& document, json& attributes, const Placement& placement) {
-    std::vector<double> hands;
-    const std::vector<Vec3> source = vectors_of(document, attributes["TANGENT"].get<std::size_t>(), &hands);
+void place_tangents(GltfDocument& document, json& attributes, const Placement& placement, const std::string& pointer) {
+    const std::vector<float> t =
+        read_floats(document, attributes["TANGENT"].get<std::size_t>(), 4, pointer + "/attributes/TANGENT");
     std::vector<float> placed;
-    for (std::size_t v = 0; v < source.size(); ++v) {
-        const Vec3f tangent = unit(placement.linear(v) * source[v], {1, 0, 0});
-        const double hand = hands.empty() ? 1 : hands[v];
-        const double turned = placement.mirrors() ? -hand : hand;
-        placed.insert(placed.end(), {tangent.x, tangent.y, tangent.z, static_cast<float>(turned)});
+    for (std::size_t v = 0; v < t.size() / 4; ++v) {
+        const Vec3f tangent = unit(turned(placement.map(v), {t[4 * v], t[4 * v + 1], t[4 * v + 2]}), {1, 0, 0});
+        const float hand = t[4 * v + 3];
+        placed.insert(placed.end(), {tangent.x, tangent.y, tangent.z, placement.mirrors() ? -hand : hand});
     }
     attributes["TANGENT"] = append_floats(document, placed, Elements::vec4, BufferTarget::vertices);
+}
+
+std::vector<std::uint32_t> drawn_vertices(const GltfDocument& document, const json& primitive, std::size_t vertices,
+                                          const std::string& pointer) {
+    if (primitive.contains("indices"))
+        return read_indices(document, primitive["indices"].get<std::size_t>(), pointer + "/indices");
+    std::vector<std::uint32_t> drawn(vertices);
+    std::iota(drawn.begin(), drawn.end(), 0U);
+    return drawn;
+}
+
+// Turns the triangles of a primitive round: strips and fans become lists. Points and lines stay.
+void turn_triangles(GltfDocument& document, json& primitive, std::size_t vertices, const std::string& pointer) {
+    const int mode = primitive.value("mode", 4);
+    if (mode < 4) return;
+    const std::vector<std::uint32_t> drawn = drawn_vertices(document, primitive, vertices, pointer);
+    std::vector<std::uint32_t> round;
+    for (std::size_t i = 0; i + 2 < drawn.size(); i += mode == 4 ? 3 : 1) {
+        const std::uint32_t a = drawn[mode == 6 ? 0 : i], b = drawn[i + 1], c = drawn[i + 2];
+        // Every second triangle of a strip runs the other way round.
+        const bool odd = mode == 5 && i % 2 == 1;
+        round.insert(round.end(), {a, odd ? b : c, odd ? c : b});
+    }
+    if (round.empty()) return;
+    primitive["indices"] = append_indices(document, round);
+    primitive["mode"] = 4;
 }
 
 std::vector<std::uint32_t> vertices_of(const Mesh& mesh, const Part& part, std::size_t expected) {
@@ -117,25 +149,41 @@ std::vector<std::uint32_t> vertices_of(const Mesh& mesh, const Part& part, std::
     return vertices;
 }
 
-WrittenPrimitive place_part(GltfDocument& document, const Mesh& mesh, const Part& part, const Placement& placement) {
+WrittenPrimitive place_part(GltfDocument& document, const Mesh& mesh, const Part& part, const Standing& standing) {
+    const std::string pointer = fmt::format("/meshes/{}/primitives/{}", part.mesh, part.primitive);
     // A copy, since what is appended may move the tree's arrays.
-    json primitive = document.json.at("meshes").at(part.mesh).at("primitives").at(part.primitive);
+    json primitive = document.json["meshes"][part.mesh].at("primitives").at(part.primitive);
     json& attributes = primitive.at("attributes");
-    const auto source = attributes.at("POSITION").get<std::size_t>();
-    const auto count = document.json.at("accessors").at(source).at("count").get<std::size_t>();
+    const std::size_t count = accessor_count(document, attributes.at("POSITION").get<std::size_t>());
     WrittenPrimitive written{part.mesh, part.primitive, vertices_of(mesh, part, count)};
+    const Placement placement{vertex_maps(document, standing, primitive, count, pointer)};
     const auto positions = std::span(mesh.positions).subspan(part.first_vertex, part.vertex_count);
     attributes["POSITION"] = append_vectors(document, positions, BufferTarget::vertices, Bounds::given);
-    if (attributes.contains("NORMAL")) place_normals(document, attributes, placement);
-    if (attributes.contains("TANGENT")) place_tangents(document, attributes, placement);
-    if (placement.mirrors()) turn_triangles(document, primitive, count);
+    if (attributes.contains("NORMAL")) place_normals(document, attributes, placement, pointer);
+    if (attributes.contains("TANGENT")) place_tangents(document, attributes, placement, pointer);
+    if (placement.mirrors()) turn_triangles(document, primitive, count, pointer);
     document.json["meshes"][part.mesh]["primitives"][part.primitive] = std::move(primitive);
     return written;
 }
 
+// Every node that is no child: what is shown where there is no scene.
+json root_nodes(const json& root) {
+    const json nodes = root.value("nodes", json::array());
+    std::vector<bool> child(nodes.size(), false);
+    for (const json& node : nodes)
+        for (const json& below : node.value("children", json::array())) child.at(below.get<std::size_t>()) = true;
+    json roots = json::array();
+    for (std::size_t n = 0; n < child.size(); ++n)
+        if (!child[n]) roots.push_back(n);
+    return roots;
+}
+
 std::size_t default_scene(json& root) {
     json& scenes = list_of(root, "scenes");
-    if (scenes.empty()) scenes.push_back(json::object());
+    if (scenes.empty()) {
+        scenes.push_back(json::object());
+        scenes[0]["nodes"] = root_nodes(root);
+    }
     const auto scene = root.value("scene", std::size_t{0});
     root["scene"] = scene;
     list_of(scenes.at(scene), "nodes");
@@ -157,20 +205,23 @@ std::size_t hang_on_root(GltfDocument& document, std::size_t mesh, std::size_t s
     return index;
 }
 
+// Meshes that the scene does not show stay where they are, and so do primitives without vertices of their own.
 BaseDocument source_document(const Mesh& mesh) {
     BaseDocument base;
     GltfDocument& document = base.document;
     document = parse_glb(mesh.gltf);
+    check_accessors(document);
+    const std::vector<Standing> stands = standings(document);
     std::map<std::uint32_t, std::vector<const Part*>> meshes;
     for (const Part& part : mesh.parts) meshes[part.mesh].push_back(&part);
     base.scene = default_scene(document.json);
-    const std::vector<Placement> placements = mesh_placements(document, base.scene);
-    drop_motion(document.json);
     for (const auto& [number, parts] : meshes) {
+        if (!stands.at(number).node) continue;
         for (const Part* part : parts)
-            base.primitives.push_back(place_part(document, mesh, *part, placements.at(number)));
+            if (part->vertex_count > 0) base.primitives.push_back(place_part(document, mesh, *part, stands[number]));
         base.mesh_nodes.push_back(hang_on_root(document, number, base.scene));
     }
+    drop_motion(document.json);
     drop_unused_numbers(document);
     return base;
 }

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "io/gltf_decompress.hpp"
-#include "io/gltf_numbers.hpp"
+#include "io/gltf_unused.hpp"
 
 namespace mien {
 

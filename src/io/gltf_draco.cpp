@@ -15,9 +15,9 @@
 #include <memory>
 #include <string>
 
+#include "io/gltf_accessors.hpp"
 #include "io/gltf_decompress.hpp"
 #include "io/gltf_json.hpp"
-#include "io/gltf_numbers.hpp"
 
 namespace mien {
 
@@ -139,7 +139,7 @@ void store_attribute(GltfDocument& document, const draco::Mesh& mesh, const json
         unique <= 0xFFFFFFFF ? mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(unique)) : nullptr;
     if (attribute == nullptr) fail_at(pointer, "an attribute of the Draco mesh", std::to_string(unique));
     check_count(accessor, mesh.num_points(), pointer);
-    const std::size_t width = element_width(accessor);
+    const std::size_t width = element_width(accessor, pointer);
     if (width != static_cast<std::size_t>(attribute->num_components()))
         fail_at(pointer, fmt::format("{} numbers an element", width), std::to_string(attribute->num_components()));
     with_component(whole_member(accessor, "componentType", pointer), pointer, [&](auto zero) {

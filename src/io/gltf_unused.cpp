@@ -4,12 +4,14 @@
 // What stays is what can be reached: accessors from primitives, skins, animations and instances, buffer views from
 // whatever says "bufferView". Views keep their order, so equal documents stay equal.
 
+#include "io/gltf_unused.hpp"
+
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <string>
 #include <string_view>
-
-#include "io/gltf_numbers.hpp"
+#include <vector>
 
 #include "mien/error.hpp"
 
