@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
+#include <iterator>
 #include <limits>
 
 #include "io/gltf_text.hpp"
 #include "io/hostile.hpp"
-
-#include "mien/io/read.hpp"
 
 namespace mien {
 namespace {
@@ -328,8 +328,6 @@ TEST(ParseGltf, RefusesPrimitivesOfDifferentNumbersOfTargets) {
 TEST(ParseGltf, ReadsASkinInItsRestPoseWhereItsNodeHasNoSay) {
     GltfDocument document = everything();
     document.json["nodes"][0]["translation"] = {100, 0, 0};
-    document.json["nodes"][0]["children"] = json::array();
-    document.json["nodes"].erase("children");
     document.json["nodes"][1] = {{"translation", {0, 0, 1}}, {"rotation", turn_about_z()}};
     document.json["nodes"][0].erase("children");
     std::vector<float> inverse{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -5, 1};
@@ -383,7 +381,9 @@ class RealHeads : public testing::TestWithParam<Head> {};
 TEST_P(RealHeads, AreReadWhole) {
     const std::filesystem::path path = std::filesystem::path(MIEN_SHARED) / "data" / GetParam().file;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
-    const Mesh mesh = read_mesh(path);
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const Mesh mesh = parse(as_bytes(text));
     EXPECT_EQ(vertex_count(mesh), GetParam().vertices);
     EXPECT_EQ(face_count(mesh), GetParam().faces);
     EXPECT_EQ(mesh.morph_targets.size(), GetParam().targets);
