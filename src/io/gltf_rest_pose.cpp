@@ -86,9 +86,11 @@ std::vector<Standing> standings(const GltfDocument& document) {
         const json& node = document.json["nodes"][n];
         const auto mesh = find_whole(node, "mesh", pointer);
         if (!mesh || result.at(*mesh).node) continue;
-        result[*mesh] = {n, nodes.worlds[n], {}};
-        if (const auto skin = find_whole(node, "skin", pointer))
-            result[*mesh].joints = joint_maps(document, nodes, *skin);
+        result[*mesh] = {n, nodes.worlds[n], false, {}};
+        const auto skin = find_whole(node, "skin", pointer);
+        if (!skin) continue;
+        result[*mesh].skinned = true;
+        result[*mesh].joints = joint_maps(document, nodes, *skin);
     }
     return result;
 }
@@ -96,7 +98,7 @@ std::vector<Standing> standings(const GltfDocument& document) {
 std::vector<Affine> vertex_maps(const GltfDocument& document, const Standing& standing, const json& primitive,
                                 std::size_t vertices, const std::string& pointer) {
     const json& attributes = object_member(primitive, "attributes", pointer);
-    if (standing.joints.empty() || !attributes.contains("JOINTS_0")) return {standing.world};
+    if (!standing.skinned || !attributes.contains("JOINTS_0")) return {standing.world};
     Blend blend{std::vector<Affine>(vertices, nothing), std::vector<double>(vertices)};
     for (unsigned set = 0; attributes.contains(fmt::format("JOINTS_{}", set)); ++set)
         add_set(blend, document, standing, attributes, set, pointer + "/attributes");

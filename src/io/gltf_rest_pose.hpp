@@ -18,7 +18,8 @@ namespace mien {
 struct Standing {
     std::optional<std::size_t> node;  ///< the first node of the traversal that uses the mesh
     Affine world;                     ///< of that node
-    std::vector<Affine> joints;       ///< of its skin: joint to scene after inverse bind; empty without a skin
+    bool skinned = false;             ///< whether that node has a skin
+    std::vector<Affine> joints;       ///< of the skin: joint to scene after inverse bind
 };
 
 /// Where every mesh of the document lies. A mesh that no node of the scene uses lies as it is.

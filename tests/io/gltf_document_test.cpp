@@ -58,12 +58,12 @@ json with_buffer_uri(const std::string& uri, std::size_t size) {
 
 TEST(LoadGltf, RefusesOtherVersionsAndTypes) {
     EXPECT_THAT(refusal(json::object()), HasSubstr("/asset: expected an object, found none"));
-    EXPECT_THAT(refusal({{"asset", {{"version", "1.0"}}}}), HasSubstr("/asset/version: expected 2.0, found \"1.0\""));
+    EXPECT_THAT(refusal({{"asset", {{"version", "1.0"}}}}), HasSubstr("/asset/version: expected 2.0, found '1.0'"));
     json root = empty_json();
     root["meshes"] = 5;
-    EXPECT_THAT(refusal(root), HasSubstr("/meshes: expected an array, found 5"));
+    EXPECT_THAT(refusal(root), HasSubstr("/meshes: expected an array, found '5'"));
     root["meshes"] = {5};
-    EXPECT_THAT(refusal(root), HasSubstr("/meshes/0: expected an object, found 5"));
+    EXPECT_THAT(refusal(root), HasSubstr("/meshes/0: expected an object, found '5'"));
 }
 
 TEST(LoadGltf, RefusesRequiredExtensionsByName) {
@@ -103,7 +103,7 @@ TEST(LoadGltf, RefusesViewsThatEndBehindTheirBuffer) {
 
 TEST(LoadGltf, RefusesABufferThatPromisesMoreThanIsThere) {
     EXPECT_THAT(refusal(with_buffer_uri("data:;base64,AAAAAA==", 5)),
-                HasSubstr("/buffers/0/byteLength: expected at most the 4 bytes that are there, found 5"));
+                HasSubstr("/buffers/0/byteLength: expected at most the 4 bytes that are there, found '5'"));
 }
 
 TEST(LoadGltf, RefusesUrisOfOtherPlaces) {
