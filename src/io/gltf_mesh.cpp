@@ -261,12 +261,27 @@ void add_mesh(Growing& out, std::size_t m, const Standing& standing) {
             fail_at(below + "/targets", fmt::format("{} as in the first primitive", names.size()),
                     std::to_string(targets));
         const std::size_t vertices = primitive_vertices(out, primitives[p], below);
-        spend(out.budget.vertices, vertices, "vertices", below);
         const Primitive primitive{primitives[p], below, vertices, static_cast<std::uint32_t>(vertex_count(out.mesh)),
                                   vertex_maps(out.document, standing, primitives[p], vertices, below)};
         const Part part{part_name(out, m, standing), static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(p)};
         add_primitive(out, primitive, part, names);
     }
+}
+
+// Before anything is read, so that what is too much is refused at once.
+void spend_vertices(Growing& out) {
+    const json& meshes = array_member(out.document.json, "meshes", "");
+    std::size_t vertices = 0;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const json& primitives = array_member(meshes[m], "primitives", fmt::format("/meshes/{}", m));
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const std::string pointer = fmt::format("/meshes/{}/primitives/{}", m, p);
+            const std::size_t count = primitive_vertices(out, primitives[p], pointer);
+            spend(out.budget.vertices, count, "vertices", pointer);
+            vertices += count;
+        }
+    }
+    out.mesh.positions.reserve(vertices);
 }
 
 }  // namespace
@@ -276,6 +291,7 @@ Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     decompress(document);
     check_accessors(document);
     Growing out{document, {}, {}, false, {}};
+    spend_vertices(out);
     const std::vector<Standing> stands = standings(document);
     for (std::size_t m = 0; m < stands.size(); ++m) add_mesh(out, m, stands[m]);
     if (!out.any_uvs) out.mesh.corner_uvs.clear();

@@ -97,7 +97,8 @@ TEST(ParseGltf, RefusesManyPrimitivesThatShareOneLargeAccessor) {
     json& primitives = document.json["meshes"][0]["primitives"];
     primitives[0]["mode"] = 0;
     for (int i = 0; i < 2; ++i) primitives.push_back(primitives[0]);
-    EXPECT_THAT(refusal(document), HasSubstr("/meshes/0/primitives/2: expected at most 0 more vertices"));
+    EXPECT_THAT(refusal(document),
+                HasSubstr("/meshes/0/primitives/2: expected at most 0 more vertices, found 16777216"));
 }
 
 TEST(ParseGltf, RefusesStridesShorterThanAnElement) {
@@ -129,7 +130,7 @@ TEST(ParseGltf, RefusesTransformsThatRunOver) {
 
 TEST(ParseGltf, FollowsAChainOfNodesAsLongAsTheFile) {
     GltfDocument document = triangle();
-    constexpr int length = 50000;
+    constexpr int length = 20000;
     for (int i = 0; i < length; ++i) add_node(document, {{"translation", {1, 0, 0}}, {"children", {i + 1}}});
     add_node(document, {{"mesh", 0}});
     EXPECT_EQ(read(document).positions[0], (Vec3f{length, 0, 0}));
