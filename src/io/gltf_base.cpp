@@ -7,10 +7,12 @@
 
 #include "io/gltf_base.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,6 +22,7 @@
 #include "io/gltf_fresh.hpp"
 #include "io/gltf_rest_pose.hpp"
 #include "io/gltf_unused.hpp"
+#include "io/rig_extension.hpp"
 
 #include "mien/error.hpp"
 
@@ -76,6 +79,7 @@ struct Placement {
     std::vector<Affine> maps;  // one for all vertices, or one for each
 
     [[nodiscard]] const Affine& map(std::size_t vertex) const { return maps.size() == 1 ? maps[0] : maps[vertex]; }
+    [[nodiscard]] bool keeps() const { return maps.size() == 1 && maps[0].columns == Affine{}.columns; }
     [[nodiscard]] bool mirrors() const { return maps.size() == 1 && determinant(maps[0]) < 0; }
 };
 
@@ -149,6 +153,19 @@ std::vector<std::uint32_t> vertices_of(const Mesh& mesh, const Part& part, std::
     return vertices;
 }
 
+// Whether an accessor holds these very positions, as plain floats: then it stays.
+bool is_in_place(const GltfDocument& document, std::size_t accessor, std::span<const Vec3f> positions,
+                 const std::string& pointer) {
+    constexpr int float_component = 5126;
+    const json& source = document.json["accessors"][accessor];
+    if (source.at("componentType") != float_component || !source.contains("min")) return false;
+    const std::vector<float> p = read_floats(document, accessor, 3, pointer + "/attributes/POSITION");
+    bool same = p.size() == 3 * positions.size();
+    for (std::size_t v = 0; same && v < positions.size(); ++v)
+        same = positions[v] == Vec3f{p[3 * v], p[3 * v + 1], p[3 * v + 2]};
+    return same;
+}
+
 WrittenPrimitive place_part(GltfDocument& document, const Mesh& mesh, const Part& part, const Standing& standing) {
     const std::string pointer = fmt::format("/meshes/{}/primitives/{}", part.mesh, part.primitive);
     // A copy, since what is appended may move the tree's arrays.
@@ -158,9 +175,11 @@ WrittenPrimitive place_part(GltfDocument& document, const Mesh& mesh, const Part
     WrittenPrimitive written{part.mesh, part.primitive, vertices_of(mesh, part, count)};
     const Placement placement{vertex_maps(document, standing, primitive, count, pointer)};
     const auto positions = std::span(mesh.positions).subspan(part.first_vertex, part.vertex_count);
-    attributes["POSITION"] = append_vectors(document, positions, BufferTarget::vertices, Bounds::given);
-    if (attributes.contains("NORMAL")) place_normals(document, attributes, placement, pointer);
-    if (attributes.contains("TANGENT")) place_tangents(document, attributes, placement, pointer);
+    if (!is_in_place(document, attributes["POSITION"].get<std::size_t>(), positions, pointer))
+        attributes["POSITION"] = append_vectors(document, positions, BufferTarget::vertices, Bounds::given);
+    const bool turns = !placement.keeps();
+    if (turns && attributes.contains("NORMAL")) place_normals(document, attributes, placement, pointer);
+    if (turns && attributes.contains("TANGENT")) place_tangents(document, attributes, placement, pointer);
     if (placement.mirrors()) turn_triangles(document, primitive, count, pointer);
     document.json["meshes"][part.mesh]["primitives"][part.primitive] = std::move(primitive);
     return written;
@@ -190,8 +209,29 @@ std::size_t default_scene(json& root) {
     return scene;
 }
 
+// Whether a node is a root of the scene that does nothing but show its mesh.
+bool shows_only(const json& node, std::size_t index, const json& roots) {
+    bool plain = std::find(roots.begin(), roots.end(), index) != roots.end();
+    for (const auto& member : node.items())
+        plain = plain && (member.key() == "mesh" || member.key() == "name" || member.key() == "extras");
+    return plain;
+}
+
+// The node that shows a mesh already as it should be shown, if no other shows it too.
+std::optional<std::size_t> plain_root(const json& root, std::size_t mesh, std::size_t scene) {
+    const json& nodes = root.at("nodes");
+    std::optional<std::size_t> found;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        if (!nodes[n].contains("mesh") || nodes[n]["mesh"].get<std::size_t>() != mesh) continue;
+        if (found || !shows_only(nodes[n], n, root.at("scenes").at(scene).at("nodes"))) return std::nullopt;
+        found = n;
+    }
+    return found;
+}
+
 // The mesh leaves its nodes, which keep children, cameras and lights, for a root of the scene.
 std::size_t hang_on_root(GltfDocument& document, std::size_t mesh, std::size_t scene) {
+    if (const auto node = plain_root(document.json, mesh, scene)) return *node;
     std::string name = document.json["meshes"][mesh].value("name", "");
     for (json& node : document.json["nodes"]) {
         if (node.value("mesh", std::size_t{0}) != mesh || !node.contains("mesh")) continue;
@@ -210,6 +250,7 @@ BaseDocument source_document(const Mesh& mesh) {
     BaseDocument base;
     GltfDocument& document = base.document;
     document = parse_glb(mesh.gltf);
+    drop_rig_extension(document.json);
     check_accessors(document);
     const std::vector<Standing> stands = standings(document);
     std::map<std::uint32_t, std::vector<const Part*>> meshes;
