@@ -55,6 +55,9 @@ const json& object_member(const json& object, const char* name, const std::strin
 std::uint64_t whole_number(const json& value, const std::string& pointer) {
     constexpr const char* expected = "a whole number from 0 to 2^53";
     if (value.is_number_unsigned() && value.get<std::uint64_t>() <= largest_whole) return value.get<std::uint64_t>();
+    // A number that was set in memory may have a sign.
+    if (value.is_number_integer() && !value.is_number_unsigned() && value.get<std::int64_t>() >= 0)
+        return value.get<std::uint64_t>();
     // Some exporters write 3.0 where 3 is meant, which JSON does not tell apart.
     if (!value.is_number_float()) fail_found(pointer, expected, value);
     const auto number = value.get<double>();

@@ -396,6 +396,7 @@ INSTANTIATE_TEST_SUITE_P(ParseGltf, RealHeads,
                          testing::Values(Head{"mh-caucasian/mh-caucasian-male.glb", 5000, 9388, 34},
                                          Head{"mh-caucasian/mh-caucasian-female.glb", 5000, 9388, 34},
                                          Head{"suzanne/suzi.glb", 7503, 14842, 0},
+                                         Head{"suzanne/suzi-draco.glb", 7503, 14842, 0},
                                          Head{"ict/ict_face.glb", 11248, 22288, 27}));
 
 }  // namespace
