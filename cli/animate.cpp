@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include <memory>
+
+#include "inputs.hpp"
+#include "outputs.hpp"
+
+#include "mien/error.hpp"
+
+namespace mien::cli {
+
+namespace {
+
+struct Animate {
+    FaceFlags face;
+    TakeFlags take;
+    RetargetOptions retarget;
+    OutputFlags output;
+};
+
+// The rig is bound to the points that the take drives and to no others: a point that nobody moves would hold its
+// surroundings fast, and an island whose own points are not driven is attached instead.
+void animate(Call& call, Animate& flags) {
+    check_output(flags.output.output, {flags.face.head, flags.face.points, flags.take.take, flags.take.map},
+                 call.flags);
+    const Face face = load_face(flags.face, call.report);
+    const Take take = load_take(flags.take, call.report);
+    flags.retarget.reading = flags.face.rig.reading;
+    flags.retarget.neutral = flags.take.neutral;
+    const Take onto = load_onto(take, face, flags.retarget, call.report);
+    const Rig rig = bind_rig(with_points(face, onto.points), flags.face, call.report);
+    write_performance(call, flags.output, face.mesh, rig, onto);
+}
+
+}  // namespace
+
+void add_animate(CLI::App& app, Call& call) {
+    const auto flags = std::make_shared<Animate>();
+    CLI::App* verb = add_verb(app, call, "animate", "Makes a head perform a take: rig, retarget and deform in one.",
+                              "mien animate kate.glb --points kate.json --take smile.trc --map markers.csv -o out.glb",
+                              [&call, flags] { animate(call, *flags); });
+    add_face_flags(*verb, flags->face);
+    verb->add_option("--take", flags->take.take, "the performance: .trc .csv")->required();
+    add_take_flags(*verb, flags->take);
+    add_output_flags(*verb, flags->output);
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "inputs.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+#include "mien/error.hpp"
+#include "mien/io/read.hpp"
+
+namespace mien::cli {
+
+namespace {
+
+const std::map<std::string, Reading> readings{{"paper", Reading::paper}, {"remedied", Reading::remedied}};
+
+std::vector<std::string> rigger_names() {
+    std::vector<std::string> names;
+    for (const Rigger& rigger : riggers()) names.emplace_back(rigger.name);
+    return names;
+}
+
+std::string rigger_help() {
+    std::string help = "how feature points move the skin:";
+    for (const Rigger& rigger : riggers()) help += fmt::format("\n  {}: {}", rigger.name, rigger.summary);
+    return help;
+}
+
+void add_reading_flag(CLI::App& verb, Reading& reading) {
+    if (verb.get_option_no_throw("--reading") != nullptr) return;
+    verb.add_option("--reading", reading, "the papers' rules as written, or in the form that behaves on real faces")
+        ->transform(CLI::CheckedTransformer(readings).description("paper or remedied"))
+        ->default_str("remedied");
+}
+
+}  // namespace
+
+void add_face_flags(CLI::App& verb, FaceFlags& flags) {
+    verb.add_option("head", flags.head, "the neutral head: .glb .gltf .obj .off .ply")->required();
+    verb.add_option("--points", flags.points, "its feature points (.json)")->required();
+    add_rig_flags(verb, flags);
+}
+
+void add_rig_flags(CLI::App& verb, FaceFlags& flags) {
+    flags.method = riggers().front().name;
+    verb.add_option("--method", flags.method, rigger_help())
+        ->check(CLI::IsMember(rigger_names()))
+        ->capture_default_str();
+    add_reading_flag(verb, flags.rig.reading);
+    verb.add_option("--rig-influences", flags.rig.influences, "points kept per vertex in the rig, 0 for all")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
+}
+
+Face load_face(const FaceFlags& flags, Report& report) {
+    Mesh mesh = read_mesh(flags.head);
+    if (mesh.positions.empty() || face_count(mesh) == 0) throw Error(flags.head.string() + ": no mesh in this file");
+    PointsFile points = read_points(flags.points, mesh);
+    Report& head = report["head"];
+    head["file"] = flags.head.filename().string();
+    head["vertices"] = vertex_count(mesh);
+    head["faces"] = face_count(mesh);
+    head["feature_points"] = points.points.size();
+    for (const std::string& sentence : points.warnings) warn(report, sentence);
+    return {std::move(mesh), std::move(points.points)};
+}
+
+Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report) {
+    Rig rig = make_rig(face, flags.method, flags.rig);
+    Report& bound = report["rig"];
+    bound["method"] = rig.method;
+    bound["points"] = rig.points.size();
+    bound["weights"] = rig.weights.size();
+    bound["vertices_unreached"] = rig.unreached;
+    for (const Attachment& part : rig.attachments)
+        bound["attached"].push_back({{"part", part.name}, {"how", part.how}, {"vertices", part.vertices}});
+    return rig;
+}
+
+void add_take_flags(CLI::App& verb, TakeFlags& flags) {
+    verb.add_option("--map", flags.map,
+                    "marker names to feature point ids: two-column .csv, or .json with \"markers\"");
+    verb.add_option("--head", flags.head,
+                    "how the head's own motion is taken out: least-squares over all head markers, three-markers "
+                    "(linear, from the first paper), or keep")
+        ->check(CLI::IsMember({"least-squares", "three-markers", "keep"}))
+        ->capture_default_str();
+    verb.add_option("--head-markers", flags.head_options.markers,
+                    "columns that ride on the skull, by commas; chosen by name and motion when not given")
+        ->delimiter(',');
+    verb.add_option("--neutral", flags.neutral.row, "row of the take that shows the neutral face")
+        ->capture_default_str();
+    verb.add_option("--neutral-rows", flags.neutral.rows, "rows from there that are averaged")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    verb.add_option("--fill-gaps", flags.fill_gaps, "fill gaps of lost samples up to this many seconds (default: off)")
+        ->check(CLI::PositiveNumber);
+    verb.add_option("--low-pass", flags.low_pass, "smooth without delay, cut-off in Hz (default: off)")
+        ->check(CLI::PositiveNumber);
+}
+
+namespace {
+
+void report_check(const Take& take, Report& report) {
+    const TakeCheck check = check_take(take);
+    std::size_t lost = 0;
+    for (const TakeCheck::Column& column : check.lost) lost += column.lost;
+    report["lost_samples"] = lost;
+    for (const TakeCheck::Column& column : check.lost)
+        report["lost"].push_back(
+            {{"point", column.point}, {"samples", column.lost}, {"longest_gap_in_rows", column.longest_gap}});
+    for (const TakeCheck::Swap& swap : check.swaps)
+        report["labels_that_seem_swapped"].push_back({{"a", swap.a}, {"b", swap.b}, {"row", swap.row}});
+}
+
+// Columns that the map does not name, or maps to nothing, keep their names: they may still serve as head markers.
+Take rename_mapped(const Take& take, const std::filesystem::path& map) {
+    std::vector<Rename> names = read_marker_map(map);
+    for (Rename& name : names)
+        if (name.to.empty()) name.to = name.from;
+    for (const std::string& point : take.points)
+        if (std::none_of(names.begin(), names.end(), [&](const Rename& name) { return name.from == point; }))
+            names.push_back({point, point});
+    return rename_points(take, names);
+}
+
+Take without_head_motion(const Take& take, const TakeFlags& flags, Report& report) {
+    Report& head = report["head_motion"];
+    HeadOptions options = flags.head_options;
+    options.method =
+        flags.head == "three-markers" ? HeadOptions::Method::three_markers : HeadOptions::Method::least_squares;
+    options.reference = flags.neutral.row;
+    if (flags.head == "keep") {
+        head = "kept";
+        return take;
+    }
+    if (options.markers.empty()) options.markers = head_markers(take);
+    if (options.markers.empty()) {
+        head = "kept: no markers that ride on the skull; name some with --head-markers";
+        return take;
+    }
+    head["method"] = flags.head;
+    head["markers"] = options.markers;
+    return remove_head_motion(take, options);
+}
+
+}  // namespace
+
+Take load_take(const TakeFlags& flags, Report& report) {
+    Take take = mark_zeros_lost(read_take(flags.take));
+    Report& about = report["take"];
+    about["file"] = flags.take.filename().string();
+    about["rows"] = row_count(take);
+    about["rows_per_second"] = frame_rate(take);
+    about["columns"] = take.points.size();
+    const TakeCheck check = check_take(take);
+    if (!check.never_seen.empty()) about["columns_never_seen"] = check.never_seen;
+    take = drop_never_seen(take);
+    if (!flags.map.empty()) take = rename_mapped(take, flags.map);
+    report_check(take, about);
+    take = without_head_motion(take, flags, about);
+    if (flags.fill_gaps > 0) {
+        GapReport gaps;
+        take = fill_gaps(take, {flags.fill_gaps}, &gaps);
+        about["gaps"] = {{"samples_filled", gaps.filled}, {"samples_left", gaps.left}};
+    }
+    if (flags.low_pass > 0) {
+        take = low_pass(take, {flags.low_pass});
+        about["low_pass_hz"] = flags.low_pass;
+    }
+    return take;
+}
+
+void add_retarget_flags(CLI::App& verb, RetargetOptions& options) {
+    add_reading_flag(verb, options.reading);
+}
+
+namespace {
+
+std::vector<std::string> not_in(const std::vector<std::string>& names, const std::vector<std::string>& others) {
+    std::vector<std::string> missing;
+    std::copy_if(names.begin(), names.end(), std::back_inserter(missing), [&](const std::string& name) {
+        return std::find(others.begin(), others.end(), name) == others.end();
+    });
+    return missing;
+}
+
+}  // namespace
+
+Take load_onto(const Take& take, const Face& face, const RetargetOptions& options, Report& report) {
+    const Retarget map = fit_retarget(take, face, options);
+    Report& about = report["retarget"];
+    about["points_driven"] = map.points.size();
+    std::vector<std::string> ids;
+    for (const FeaturePoint& point : face.points) ids.push_back(point.id);
+    about["points_not_driven"] = not_in(ids, map.points);
+    about["columns_not_used"] = not_in(take.points, map.points);
+    about["residual"] = map.residual;
+    Take onto = retarget(map, take);
+    onto.unit = face.mesh.unit;
+    return onto;
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include <memory>
+
+#include "inputs.hpp"
+#include "outputs.hpp"
+
+#include "mien/io/gltf.hpp"
+
+namespace mien::cli {
+
+namespace {
+
+struct MakeRig {
+    FaceFlags face;
+    OutputFlags output;
+};
+
+void rig(Call& call, const MakeRig& flags) {
+    check_output(flags.output.output, {flags.face.head, flags.face.points}, call.flags);
+    const Face face = load_face(flags.face, call.report);
+    const Rig rig = bind_rig(face, flags.face, call.report);
+    const Skin skin = skin_for(call, flags.output, face.mesh, rig, Take{});
+    write_output(call, flags.output.output, format_rig(face.mesh, rig, skin));
+}
+
+}  // namespace
+
+void add_rig(CLI::App& app, Call& call) {
+    const auto flags = std::make_shared<MakeRig>();
+    CLI::App* verb =
+        add_verb(app, call, "rig", "Binds a head to its feature points: a .glb that any engine loads.",
+                 "mien rig kate.glb --points kate.json -o kate-rig.glb", [&call, flags] { rig(call, *flags); });
+    add_face_flags(*verb, flags->face);
+    verb->add_option("-o,--output", flags->output.output, "the rig file to write (.glb)")->required();
+    add_skin_flags(*verb, flags->output);
+}
+
+}  // namespace mien::cli
