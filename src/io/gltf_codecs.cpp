@@ -6,13 +6,17 @@
 #include "io/gltf_codecs.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "io/gltf_decompress.hpp"
+#include "io/gltf_json.hpp"
 #include "io/gltf_unused.hpp"
 
 namespace mien {
 
 namespace {
+
+constexpr std::uint64_t largest_growth = 128;
 
 void forget_extension(nlohmann::json& root, const char* name) {
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
@@ -37,9 +41,17 @@ void remove_extension(nlohmann::json& object, const char* name) {
     if (object["extensions"].empty()) object.erase("extensions");
 }
 
+void spend(DecodeBudget& budget, std::uint64_t bytes, const std::string& pointer) {
+    if (bytes > budget.bytes)
+        fail_at(pointer, "compressed data that make a file of this size at most 128 times as large",
+                fmt::format("{} bytes more than that", bytes - budget.bytes));
+    budget.bytes -= bytes;
+}
+
 void decompress(GltfDocument& document) {
-    const bool meshopt = decompress_meshopt(document);
-    const bool draco = decompress_draco(document);
+    DecodeBudget budget{largest_growth * document.binary.size()};
+    const bool meshopt = decompress_meshopt(document, budget);
+    const bool draco = decompress_draco(document, budget);
     forget_extension(document.json, "EXT_meshopt_compression");
     forget_extension(document.json, "KHR_draco_mesh_compression");
     if (meshopt || draco) drop_unused_numbers(document);

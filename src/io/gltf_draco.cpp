@@ -169,12 +169,13 @@ void store_indices(GltfDocument& document, const draco::Mesh& mesh, json& access
     });
 }
 
-void decompress_primitive(GltfDocument& document, json& primitive, const std::string& place) {
+void decompress_primitive(GltfDocument& document, json& primitive, const std::string& place, DecodeBudget& budget) {
     const std::string pointer = place + "/extensions/" + name;
     const json extension = primitive["extensions"][name];
     if (!extension.is_object()) fail_found(pointer, "an object", extension);
     if (whole_member(primitive, "mode", place, 4) != 4) fail_found(place + "/mode", "triangles (4)", primitive["mode"]);
     const auto mesh = decode(compressed_bytes(document, extension, pointer), pointer);
+    spend(budget, 16 * std::uint64_t{mesh->num_points()} + 12 * std::uint64_t{mesh->num_faces()}, pointer);
     const json& attributes = object_member(primitive, "attributes", place);
     for (const auto& [semantic, id] : object_member(extension, "attributes", pointer).items()) {
         const std::string where = pointer + "/attributes/" + semantic;
@@ -188,7 +189,7 @@ void decompress_primitive(GltfDocument& document, json& primitive, const std::st
 
 }  // namespace
 
-bool decompress_draco(GltfDocument& document) {
+bool decompress_draco(GltfDocument& document, DecodeBudget& budget) {
     bool any = false;
     for (std::size_t m = 0; m < element_count(document.json, "meshes"); ++m) {
         json& mesh = document.json["meshes"][m];
@@ -198,7 +199,7 @@ bool decompress_draco(GltfDocument& document) {
             const std::string place = fmt::format("{}/primitives/{}", at_mesh, p);
             json& primitive = mesh["primitives"][p];
             if (!object_member(primitive, "extensions", place).contains(name)) continue;
-            decompress_primitive(document, primitive, place);
+            decompress_primitive(document, primitive, place, budget);
             any = true;
         }
     }

@@ -65,7 +65,7 @@ Compressed read_extension(const GltfDocument& document, const json& extension, c
     view.stride = whole_member(extension, "byteStride", pointer);
     check_stride(view, pointer);
     check_filter(view, pointer);
-    if (view.count > largest_growth * length / view.stride)
+    if (view.count == 0 || view.count > largest_growth * length / view.stride)
         fail_at(pointer + "/count", fmt::format("what {} compressed bytes can hold", length),
                 fmt::format("{} elements of {} bytes", view.count, view.stride));
     return view;
@@ -91,7 +91,7 @@ std::vector<std::byte> decode(const Compressed& view, const std::string& pointer
 
 }  // namespace
 
-bool decompress_meshopt(GltfDocument& document) {
+bool decompress_meshopt(GltfDocument& document, DecodeBudget& budget) {
     bool any = false;
     for (std::size_t i = 0; i < element_count(document.json, "bufferViews"); ++i) {
         json& view = document.json["bufferViews"][i];
@@ -100,7 +100,9 @@ bool decompress_meshopt(GltfDocument& document) {
         const std::string place = pointer + "/extensions/EXT_meshopt_compression";
         const json extension = view["extensions"]["EXT_meshopt_compression"];
         if (!extension.is_object()) fail_found(place, "an object", extension);
-        const std::vector<std::byte> plain = decode(read_extension(document, extension, place), place);
+        const Compressed compressed = read_extension(document, extension, place);
+        spend(budget, compressed.count * compressed.stride, place);
+        const std::vector<std::byte> plain = decode(compressed, place);
         view["buffer"] = 0;
         view["byteOffset"] = append_bytes(document, plain);
         view["byteLength"] = plain.size();

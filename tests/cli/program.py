@@ -22,11 +22,12 @@ def run(*arguments, cwd=None, **environment):
                           stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
 
 
-def first_rows(trc, rows):
-    """The text of a TRC file with only its first rows."""
+def some_rows(trc, rows):
+    """The text of a TRC file with only some of its rows, from its first to its last."""
     lines = trc.read_text(encoding="utf-8").splitlines()
     first = next(i for i, line in enumerate(lines) if line.split("\t")[0].strip().isdigit() and i > 2)
-    kept = lines[:first + rows]
+    all_rows = len(lines) - first
+    kept = lines[:first] + [lines[first + row * (all_rows - 1) // (rows - 1)] for row in range(rows)]
     names, values = kept[1].split("\t"), kept[2].split("\t")
     for i, name in enumerate(names):
         if name in ("NumFrames", "OrigNumFrames"):

@@ -67,8 +67,8 @@ public:
 
 private:
     static std::size_t size_of(int component) {
-        return std::map<int, std::size_t>{{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}}.at(
-            component);
+        if (component == 5120 || component == 5121) return 1;
+        return component == 5122 || component == 5123 ? 2 : 4;
     }
 
     template <class T>

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "mien/face.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace mien {
+namespace {
+
+std::vector<FeaturePoint> points(std::initializer_list<std::pair<const char*, Vec3>> list) {
+    std::vector<FeaturePoint> result;
+    for (const auto& [id, position] : list) result.push_back({id, 0, position, {}, 0});
+    return result;
+}
+
+TEST(Face, PointsAreFoundByTheirWholeId) {
+    const auto list = points({{"2.1", {}}, {"2.10", {}}});
+    EXPECT_EQ(find_point(list, "2.10"), 1U);
+    EXPECT_EQ(find_point(list, "2"), std::nullopt);
+}
+
+TEST(Face, NamedPointsStayInTheOrderOfTheFace) {
+    const Face face{{}, points({{"a", {}}, {"b", {}}, {"c", {}}})};
+    const std::vector<std::string> ids = {"c", "nobody", "a"};
+    const Face some = with_points(face, ids);
+    ASSERT_EQ(some.points.size(), 2U);
+    EXPECT_EQ(some.points[0].id, "a");
+    EXPECT_EQ(some.points[1].id, "c");
+}
+
+TEST(Face, TheEyesAreTheMiddlesOfTheirCorners) {
+    const auto list = points(
+        {{"3.7", {5, 0, 0}}, {"3.11", {1, 0, 0}}, {"3.8", {-5, 0, 0}}, {"3.12", {-1, 0, 0}}, {"2.1", {0, -9, 0}}});
+    EXPECT_DOUBLE_EQ(eye_distance(list), 6);
+}
+
+TEST(Face, PupilsServeWhereCornersAreMissingThenLidsThenOneLid) {
+    const auto pupils = points({{"3.5", {3, 0, 0}}, {"3.6", {-3, 0, 0}}, {"3.1", {9, 0, 0}}, {"3.2", {-9, 0, 0}}});
+    EXPECT_DOUBLE_EQ(eye_distance(pupils), 6);
+    const auto lids = points({{"3.1", {3, 1, 0}}, {"3.3", {3, -1, 0}}, {"3.2", {-3, 1, 0}}, {"3.4", {-3, -1, 0}}});
+    EXPECT_DOUBLE_EQ(eye_distance(lids), 6);
+    EXPECT_DOUBLE_EQ(eye_distance(points({{"3.1", {3, 1, 0}}, {"3.2", {-3, 1, 0}}, {"8.1", {0, -4, 1}}})), 6);
+}
+
+TEST(Face, WithoutEyesTheSpreadOfThePointsServes) {
+    EXPECT_DOUBLE_EQ(eye_distance(points({{"a", {10, 0, 0}}, {"b", {-10, 0, 0}}})), 6);
+    EXPECT_EQ(eye_distance(points({{"a", {10, 0, 0}}})), 0);
+    EXPECT_EQ(eye_distance({}), 0);
+}
+
+}  // namespace
+}  // namespace mien

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "mien/io/read.hpp"
+
+#include <functional>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "io/text.hpp"
+
+#include "mien/error.hpp"
+#include "mien/io/write.hpp"
+
+namespace mien {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+// A folder of its own for each test, two levels deep so that there is something outside.
+class Read : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "mien-read-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        outside_ = name;
+        folder_ = outside_ / "head";
+        fs::create_directory(folder_);
+    }
+    void TearDown() override { fs::remove_all(outside_); }
+
+    fs::path file(const fs::path& name, std::string_view content) const {
+        write_file(folder_ / name, as_bytes(content), {true, {}});
+        return folder_ / name;
+    }
+
+    fs::path outside_, folder_;
+};
+
+struct Refusal {
+    Error::Kind kind = Error::Kind::input;
+    std::string sentence = "nothing was thrown";
+};
+
+Refusal refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return {error.kind(), error.what()};
+    }
+    return {};
+}
+
+// A triangle as .gltf whose 36 bytes of positions are at `uri`.
+std::string gltf(const std::string& uri) {
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": ")" +
+           uri + "\"}]}";
+}
+
+std::string gltf_positions() {
+    std::string bytes(36, '\0');
+    bytes.replace(12, 4, std::string("\0\0\x80\x3f", 4));
+    bytes.replace(28, 4, std::string("\0\0\x80\x3f", 4));
+    return bytes;
+}
+
+TEST_F(Read, a_file_that_cannot_be_read_is_an_error_of_access_that_names_it) {
+    for (const fs::path& path :
+         {folder_ / "no.obj", folder_ / "no" / "a.obj", folder_ / (std::string(300, 'x') + ".obj")}) {
+        const Refusal found = refusal([&] { read_mesh(path); });
+        EXPECT_EQ(found.kind, Error::Kind::access);
+        EXPECT_THAT(found.sentence, StartsWith(path.string() + ": cannot read: "));
+    }
+    fs::create_directory(folder_ / "a.trc");
+    const Refusal found = refusal([&] { read_take(folder_ / "a.trc"); });
+    EXPECT_EQ(found.kind, Error::Kind::access);
+    EXPECT_THAT(found.sentence, HasSubstr("it is a folder"));
+}
+
+TEST_F(Read, what_a_parser_refuses_is_an_error_of_input_that_names_the_file) {
+    const fs::path path = file("a.obj", "v 0 0 nan\n");
+    const Refusal found = refusal([&] { read_mesh(path); });
+    EXPECT_EQ(found.kind, Error::Kind::input);
+    EXPECT_THAT(found.sentence, StartsWith(path.string() + ": obj line 1: expected a finite z"));
+    const Mesh mesh = read_mesh(file("a.obj", triangle));
+    const fs::path points = file("points", "{\"2.1\": 3}");
+    EXPECT_THAT(refusal([&] { read_points(points, mesh); }).sentence, StartsWith(points.string() + ": points /2.1: "));
+}
+
+TEST_F(Read, an_unknown_extension_is_refused_before_the_file_is_opened) {
+    for (const char* name : {"a.fbx", "a", "a.trc", ".obj"}) {
+        const Refusal found = refusal([&] { read_mesh(folder_ / name); });
+        EXPECT_EQ(found.kind, Error::Kind::input) << name;
+        EXPECT_THAT(found.sentence, HasSubstr("expected a file that ends in .glb, .gltf, .obj, .off or .ply"));
+    }
+    EXPECT_THAT(refusal([&] { read_take(folder_ / "a.obj"); }).sentence, HasSubstr(".trc or .csv"));
+    EXPECT_THAT(refusal([&] { read_marker_map(folder_ / "a.txt"); }).sentence, HasSubstr(".csv or .json"));
+    EXPECT_THAT(refusal([&] { read_rig(folder_ / "a.gltf"); }).sentence, HasSubstr(".glb"));
+}
+
+TEST_F(Read, a_mesh_all_of_whose_faces_lie_on_a_point_or_a_line_is_refused) {
+    const std::string line = "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\n";
+    const std::string faces = "f 1 2 3\nf 2 3 4\nf 1 1 1\nf 1 2 3 4\n";
+    EXPECT_THAT(refusal([&] { read_mesh(file("a.obj", line + faces)); }).sentence, HasSubstr("no area"));
+    EXPECT_EQ(face_count(read_mesh(file("a.obj", line + "v 0 1 0\n" + faces + "f 1 2 5\n"))), 5U);
+}
+
+TEST_F(Read, every_mesh_format_is_chosen_by_its_extension_in_either_case) {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for (const fs::path& path : {file("a.OBJ", triangle), file("a.off", off), file("a.Ply", ply)})
+        EXPECT_EQ(read_mesh(path).positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << path;
+}
+
+TEST_F(Read, files_longer_than_one_chunk_are_read_whole) {
+    const std::string comment = "#" + std::string((std::size_t{1} << 20) - 2, ' ') + "\n";
+    EXPECT_EQ(face_count(read_mesh(file("a.obj", comment + triangle))), 1U);
+    EXPECT_EQ(face_count(read_mesh(file("a.obj", triangle + comment + comment + "f 3 2 1\n"))), 2U);
+}
+
+TEST_F(Read, takes_faces_and_marker_maps_are_what_was_written) {
+    const Take take{{"2.1"}, {0, 0.5}, {{1, 2, 3}, {4, 5, 6}}, {}, "mm"};
+    write(take, folder_ / "a.trc");
+    write(take, folder_ / "a.csv");
+    for (const char* name : {"a.trc", "a.csv"}) EXPECT_EQ(read_take(folder_ / name).samples, take.samples) << name;
+    const Face face = read_face(file("a.obj", triangle), file("a.json", "{\"2.1\": 2}"));
+    EXPECT_EQ(face.points.at(0).position, (Vec3{0, 1, 0}));
+    EXPECT_EQ(vertex_count(face.mesh), 3U);
+    EXPECT_EQ(read_marker_map(file("m.CSV", "chin,2.1\n")).at(0).to, "2.1");
+}
+
+TEST_F(Read, a_gltf_reaches_files_of_its_folder_and_below_and_nothing_else) {
+    fs::create_directory(folder_ / "below");
+    file("a.bin", gltf_positions());
+    file("below/a.bin", gltf_positions());
+    write_file(outside_ / "secret.bin", as_bytes(gltf_positions()));
+    fs::create_symlink(outside_ / "secret.bin", folder_ / "link.bin");
+    for (const char* uri : {"a.bin", "below/a.bin", "below/../a.bin"})
+        EXPECT_EQ(read_mesh(file("a.gltf", gltf(uri))).positions.at(1), (Vec3f{1, 0, 0})) << uri;
+    for (const std::string& uri :
+         {std::string("../secret.bin"), (outside_ / "secret.bin").string(), std::string("link.bin"),
+          std::string("below/../../secret.bin"), std::string("below"), std::string("%2e%2e/secret.bin"),
+          std::string("no.bin"), std::string("."), std::string("file:///etc/passwd")}) {
+        const Refusal found = refusal([&] { read_mesh(file("a.gltf", gltf(uri))); });
+        EXPECT_THAT(found.sentence, AnyOf(HasSubstr("expected a file"), HasSubstr("expected a relative uri"))) << uri;
+    }
+}
+
+}  // namespace
+}  // namespace mien
