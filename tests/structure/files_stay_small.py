@@ -13,7 +13,7 @@ FILE_LINES = 600
 FUNCTION_LINES = 80
 LICENCE = ("SPDX-License-Identifier: MIT", "Copyright (c) 2026 the mien authors")
 LATER = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
-NOT_A_FUNCTION = re.compile(r"^\s*(namespace|struct|class|union|enum|extern|using|constexpr [^(]*=|const [^(]*=|\}|//|#)")
+NOT_A_FUNCTION = re.compile(r"^\s*((?:public|protected|private):|namespace|struct|class|union|enum|extern|using|constexpr [^(]*=|const [^(]*=|\}|//|#)")
 
 
 def opening(lines, start):
