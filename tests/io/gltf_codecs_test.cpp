@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "io/gltf_codecs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "io/gltf_accessors.hpp"
+
+#include "mien/error.hpp"
+#include "mien/io/read.hpp"
+
+namespace mien {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint32_t corners = 64;
+
+std::vector<float> positions() {
+    std::vector<float> values;
+    for (std::uint32_t v = 0; v < corners; ++v)
+        for (const std::uint32_t k : {7U, 11U, 13U}) values.push_back(static_cast<float>((v * k) % 17) / 4);
+    return values;
+}
+
+std::vector<std::uint32_t> triangles() {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t v = 0; v + 2 < corners; ++v) indices.insert(indices.end(), {v, v + 1, v + 2});
+    return indices;
+}
+
+std::vector<unsigned char> encoded_positions() {
+    const std::vector<float> values = positions();
+    std::vector<unsigned char> bytes(meshopt_encodeVertexBufferBound(corners, 12));
+    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), values.data(), corners, 12));
+    return bytes;
+}
+
+std::vector<unsigned char> encoded_triangles() {
+    const std::vector<std::uint32_t> indices = triangles();
+    std::vector<unsigned char> bytes(meshopt_encodeIndexBufferBound(indices.size(), corners));
+    bytes.resize(meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), indices.size()));
+    return bytes;
+}
+
+std::vector<unsigned char> encoded_sequence() {
+    const std::vector<std::uint32_t> indices = triangles();
+    std::vector<unsigned char> bytes(meshopt_encodeIndexSequenceBound(indices.size(), corners));
+    bytes.resize(meshopt_encodeIndexSequence(bytes.data(), bytes.size(), indices.data(), indices.size()));
+    return bytes;
+}
+
+// A document of one triangle mesh whose two views are compressed.
+GltfDocument compressed(const std::vector<unsigned char>& vertices, const std::vector<unsigned char>& indices,
+                        const char* index_mode) {
+    const std::size_t count = triangles().size();
+    GltfDocument document;
+    document.json = json::parse(R"({"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_meshopt_compression"],
+        "extensionsRequired": ["EXT_meshopt_compression"], "buffers": [{"byteLength": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})");
+    const auto add = [&](const std::vector<unsigned char>& bytes, std::size_t elements, std::size_t stride,
+                         const char* mode) {
+        while (document.binary.size() % 4 != 0) document.binary.push_back({});
+        const json extension{{"buffer", 0U},
+                             {"byteOffset", document.binary.size()},
+                             {"byteLength", bytes.size()},
+                             {"byteStride", stride},
+                             {"count", elements},
+                             {"mode", mode}};
+        document.json["bufferViews"].push_back({{"buffer", 0U},
+                                                {"byteLength", elements * stride},
+                                                {"extensions", {{"EXT_meshopt_compression", extension}}}});
+        const auto raw = std::as_bytes(std::span(bytes));
+        document.binary.insert(document.binary.end(), raw.begin(), raw.end());
+    };
+    add(vertices, corners, 12, "ATTRIBUTES");
+    add(indices, count, 4, index_mode);
+    document.json["accessors"] = {{{"bufferView", 0U}, {"componentType", 5126U}, {"count", corners}, {"type", "VEC3"}},
+                                  {{"bufferView", 1U}, {"componentType", 5125U}, {"count", count}, {"type", "SCALAR"}}};
+    return document;
+}
+
+json& extension_of(GltfDocument& document, std::size_t view) {
+    return document.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
+}
+
+std::string refusal(GltfDocument document) {
+    try {
+        decompress(document);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(GltfCodecs, RefusesWhatTheExtensionDoesNotKnow) {
+    const std::tuple<const char*, json, const char*> wrongs[] = {
+        {"mode", "BEST", "/mode"},           {"filter", "BLUR", "/filter"}, {"byteStride", 13U, "/byteStride"},
+        {"byteStride", 260U, "/byteStride"}, {"count", 0U, "/count"},       {"byteOffset", 1U << 30U, "bytes inside"},
+        {"buffer", 3U, "bytes inside"},      {"count", -1, "/count"}};
+    for (const auto& [member, value, place] : wrongs) {
+        GltfDocument document = compressed(encoded_positions(), encoded_triangles(), "TRIANGLES");
+        extension_of(document, 0)[member] = value;
+        EXPECT_THAT(refusal(document), testing::HasSubstr(place)) << member << " " << value;
+    }
+}
+
+TEST(GltfCodecs, APromisedCountIsHeldAgainstTheBytesBeforeAnythingIsAllocated) {
+    GltfDocument document = compressed(encoded_positions(), encoded_triangles(), "TRIANGLES");
+    extension_of(document, 0)["count"] = 1ULL << 40U;
+    EXPECT_THAT(refusal(document), testing::HasSubstr("/count"));
+}
+
+TEST(GltfCodecs, ManyViewsOfTheSameBytesShareOneBudget) {
+    // 4096 equal vertices take few bytes, and each of the views below makes them large again.
+    const std::vector<float> still(std::size_t{3} * 4096);
+    std::vector<unsigned char> bytes(meshopt_encodeVertexBufferBound(4096, 12));
+    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), still.data(), 4096, 12));
+    GltfDocument document = compressed(bytes, encoded_triangles(), "TRIANGLES");
+    extension_of(document, 0)["count"] = 4096U;
+    EXPECT_EQ(refusal(document), "accepted");
+    for (int copies = 0; copies < 200; ++copies)
+        document.json["bufferViews"].push_back(json(document.json["bufferViews"][0]));
+    EXPECT_THAT(refusal(document), testing::HasSubstr("128 times"));
+}
+
+TEST(GltfCodecs, BytesCutShortAndBytesOfAnotherKindAreRefused) {
+    std::vector<unsigned char> cut = encoded_positions();
+    cut.resize(cut.size() / 2);
+    EXPECT_THAT(refusal(compressed(cut, encoded_triangles(), "TRIANGLES")), testing::HasSubstr("/bufferViews/0"));
+    EXPECT_THAT(refusal(compressed(encoded_positions(), encoded_positions(), "TRIANGLES")),
+                testing::HasSubstr("/bufferViews/1"));
+}
+
+TEST(GltfCodecs, MeshoptGivesBackEveryNumber) {
+    for (const bool sequence : {false, true}) {
+        GltfDocument document = compressed(encoded_positions(), sequence ? encoded_sequence() : encoded_triangles(),
+                                           sequence ? "INDICES" : "TRIANGLES");
+        decompress(document);
+        EXPECT_EQ(read_floats(document, 0, 3, ""), positions());
+        const auto found = read_indices(document, 1, "");
+        const auto expected = triangles();
+        ASSERT_EQ(found.size(), expected.size());
+        // The triangle codec may turn the corners of a triangle round.
+        for (std::size_t t = 0; t < found.size(); t += 3)
+            EXPECT_TRUE(std::is_permutation(&found[t], &found[t] + 3, &expected[t])) << t;
+    }
+}
+
+TEST(GltfCodecs, NothingOfTheCompressionIsLeft) {
+    GltfDocument document = compressed(encoded_positions(), encoded_triangles(), "TRIANGLES");
+    decompress(document);
+    EXPECT_EQ(document.json.dump().find("EXT_meshopt_compression"), std::string::npos);
+    EXPECT_EQ(document.binary.size(), positions().size() * 4 + triangles().size() * 4);
+}
+
+TEST(GltfCodecs, AHeadThatDracoCodedIsItsPlainTwin) {
+    const std::filesystem::path folder = std::filesystem::path(MIEN_SHARED) / "data" / "suzanne";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
+    const auto sorted = [&](const char* name) {
+        std::vector<Vec3f> places = read_mesh(folder / name).positions;
+        std::sort(places.begin(), places.end(),
+                  [](const Vec3f& a, const Vec3f& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+        return places;
+    };
+    EXPECT_EQ(sorted("suzi-draco.glb"), sorted("suzi.glb"));
+}
+
+}  // namespace
+}  // namespace mien
