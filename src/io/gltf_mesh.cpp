@@ -29,11 +29,14 @@ using nlohmann::json;
 
 // How much may still be read: far more than any head has, and less than a machine's memory.
 struct Budget {
-    std::uint64_t vertices = std::uint64_t{1} << 25;
-    std::uint64_t corners = std::uint64_t{1} << 26;
-    std::uint64_t morph_vertices = std::uint64_t{1} << 28;
-    std::uint64_t morph_deltas = std::uint64_t{1} << 26;
+    std::uint64_t vertices = 0, corners = 0, morph_vertices = 0, morph_deltas = 0;
 };
+
+// Primitives may share one accessor, so that a small file makes a mesh of any size: what is read may grow with the
+// bytes that are there, far beyond what any exporter reaches.
+Budget budget_of(std::uint64_t bytes) {
+    return {(1U << 18U) + 6 * bytes, (1U << 19U) + 8 * bytes, (1U << 21U) + 96 * bytes, (1U << 19U) + 8 * bytes};
+}
 
 void spend(std::uint64_t& left, std::uint64_t amount, const char* what, const std::string& pointer) {
     if (amount > left) fail_at(pointer, fmt::format("at most {} more {}", left, what), std::to_string(amount));
@@ -290,7 +293,7 @@ Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     GltfDocument document = load_gltf(bytes, fetch);
     decompress(document);
     check_accessors(document);
-    Growing out{document, {}, {}, false, {}};
+    Growing out{document, {}, budget_of(document.binary.size()), false, {}};
     spend_vertices(out);
     const std::vector<Standing> stands = standings(document);
     for (std::size_t m = 0; m < stands.size(); ++m) add_mesh(out, m, stands[m]);
