@@ -97,8 +97,7 @@ TEST(ParseGltf, RefusesManyPrimitivesThatShareOneLargeAccessor) {
     json& primitives = document.json["meshes"][0]["primitives"];
     primitives[0]["mode"] = 0;
     for (int i = 0; i < 2; ++i) primitives.push_back(primitives[0]);
-    EXPECT_THAT(refusal(document),
-                HasSubstr("/meshes/0/primitives/0: expected at most 262"));
+    EXPECT_THAT(refusal(document), HasSubstr("/meshes/0/primitives/0: expected at most 262"));
 }
 
 TEST(ParseGltf, RefusesStridesShorterThanAnElement) {
