@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mien/mesh.hpp"
+#include "mien/rig.hpp"
+#include "mien/scene.hpp"
+
+namespace mien {
+
+/// A mesh as a scene, for files that are not glTF: a surface per part, faces cut into triangles, a vertex for every
+/// pair of position and texture coordinate. `vertices`: for each vertex of the surfaces, in order, its vertex in the
+/// mesh (for `Movement::vertices`).
+struct MeshScene {
+    Scene scene;
+    std::vector<std::uint32_t> vertices;
+};
+MeshScene scene_of(const Mesh& mesh);
+
+/// Gives a face the look of one where its file says nothing.
+///
+/// - A material that is plain (white, no picture, all else as glTF's defaults) is replaced by one for what the surface
+///   is: an eye, teeth, gums, tongue, lashes, brows by its name; otherwise skin.
+/// - A material that is neither metal nor see-through and is called skin, head, face or body, or is worn by the
+/// vertices
+///   that the rig moves most, lets light travel under it as skin does, unless it says how far itself.
+///
+/// `rig` may be null.
+void dress(Scene& scene, const Rig* rig = nullptr);
+
+}  // namespace mien
