@@ -25,14 +25,12 @@ add_library(draco::draco ALIAS draco)
 target_include_directories(draco SYSTEM INTERFACE ${DRACO_INCLUDE})
 target_link_libraries(draco INTERFACE ${DRACO_LIBRARY})
 
-<<<<<<< HEAD
 # Finds OpenGL ES and EGL when the program runs; their libraries are not needed to build.
 find_path(EPOXY_INCLUDE epoxy/egl.h REQUIRED)
 find_library(EPOXY_LIBRARY epoxy REQUIRED)
 add_library(epoxy INTERFACE)
 target_include_directories(epoxy SYSTEM INTERFACE ${EPOXY_INCLUDE})
 target_link_libraries(epoxy INTERFACE ${EPOXY_LIBRARY})
-=======
+
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
->>>>>>> scene
