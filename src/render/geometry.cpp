@@ -17,10 +17,6 @@ namespace mien {
 
 namespace {
 
-double determinant(const Affine& map) {
-    return dot(map.columns[0], cross(map.columns[1], map.columns[2]));
-}
-
 // A normal through the map: the inverse transpose, without its division.
 Vec3f turned_normal(const Affine& map, const Vec3f& normal) {
     const auto& [a, b, c] = map.columns;

@@ -220,7 +220,13 @@ Amounts amounts_of(const StillModel& still, std::span<const Vec3f> displacements
 
 Mover::Mover()
     : program_(shaders::move_vertex, shaders::move_fragment,
-               std::array<const char*, 2>{"posed_position", "posed_normal"}) {
+               std::array<const char*, 2>{"posed_position", "posed_normal"}),
+      nowhere_(GlName::Kind::framebuffer),
+      pixel_(GlName::Kind::renderbuffer) {
+    glBindFramebuffer(GL_FRAMEBUFFER, nowhere_.name());
+    glBindRenderbuffer(GL_RENDERBUFFER, pixel_.name());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, pixel_.name());
     program_.use();
     int unit = 0;
     for (const char* list : {"plain", "full", "bones", "amounts", "maps"}) program_.set(list, unit++);
@@ -237,6 +243,7 @@ void Mover::run(const Instance& instance, Amounts amounts) {
     for (const GlList* list : {&still.plain, &still.full, &still.bones, &static_cast<const GlList&>(amounts_),
                                &static_cast<const GlList&>(maps_)})
         bind_texture(unit++, list->texture.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, nowhere_.name());
     program_.use();
     glBindVertexArray(still.move_array.name());
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, instance.posed.name());

@@ -66,6 +66,7 @@ public:
 private:
     GlProgram program_;
     GlList amounts_, maps_;
+    GlName nowhere_, pixel_;  ///< a framebuffer: without a window nothing can be drawn without one
 };
 
 StillModel make_still(const Scene& scene, const Geometry& geometry);

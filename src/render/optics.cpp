@@ -99,7 +99,7 @@ Matrix place_matrix(const Affine& map, const Vec3& origin) {
 
 Matrix turn_matrix(const Affine& map) {
     const auto& [a, b, c] = map.columns;
-    const double side = dot(a, cross(b, c)) < 0 ? -1 : 1;
+    const double side = determinant(map) < 0 ? -1 : 1;
     return place_matrix({{side * cross(b, c), side * cross(c, a), side * cross(a, b)}, {}}, {});
 }
 

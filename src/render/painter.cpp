@@ -41,10 +41,6 @@ Ball joined(const Ball& a, const Ball& b) {
     return {a.centre + (radius - a.radius) / apart * (b.centre - a.centre), radius};
 }
 
-bool mirrors(const Affine& map) {
-    return dot(map.columns[0], cross(map.columns[1], map.columns[2])) < 0;
-}
-
 bool is_blend(const Instance& model, const Piece& piece) {
     return model.still->materials[piece.material].alpha == Material::Alpha::blend;
 }
@@ -143,7 +139,7 @@ void Painter::draw_piece(GlProgram& program, const Instance& model, const Piece&
     else
         glEnable(GL_CULL_FACE);
     // The picture is drawn upside down, which turns the sides of all triangles over.
-    glFrontFace(mirrors(model.place) ? GL_CCW : GL_CW);
+    glFrontFace(determinant(model.place) < 0 ? GL_CCW : GL_CW);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.index_count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(piece.first_index * sizeof(std::uint32_t)));
 }
