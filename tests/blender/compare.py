@@ -13,6 +13,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -68,10 +69,13 @@ def vertices_of_meshes(document, binary):
 
 def evaluate(glb, times, folder):
     target = folder / "evaluated.json"
+    program = shutil.which("blender") or sys.exit("there is no blender on the PATH")
+    # Debian's Blender takes the first Python of its version on the PATH for its own; another's has no NumPy.
+    path = os.path.dirname(program) + os.pathsep + os.environ["PATH"]
     done = subprocess.run(
-        ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P",
+        [program, "-b", "--factory-startup", "--python-exit-code", "1", "-P",
          str(pathlib.Path(__file__).with_name("evaluate.py")), "--", str(glb), str(target), *map(repr, times)],
-        env={**os.environ, "HOME": str(folder)}, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=600)
+        env={**os.environ, "HOME": str(folder), "PATH": path}, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=600)
     if done.returncode:
         sys.exit(f"Blender failed on {glb}:\n{done.stdout}\n{done.stderr}")
     return json.loads(target.read_text(encoding="utf-8"))
