@@ -25,6 +25,9 @@ add_library(draco::draco ALIAS draco)
 target_include_directories(draco SYSTEM INTERFACE ${DRACO_INCLUDE})
 target_link_libraries(draco INTERFACE ${DRACO_LIBRARY})
 
+find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
+
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 if(MIEN_VIDEO)

@@ -31,4 +31,9 @@ constexpr Affine operator*(const Affine& a, const Affine& b) {
     return {{turned(a, b.columns[0]), turned(a, b.columns[1]), turned(a, b.columns[2])}, moved(a, b.offset)};
 }
 
+/// How much volumes grow; negative for a map that mirrors.
+constexpr double determinant(const Affine& map) {
+    return dot(map.columns[0], cross(map.columns[1], map.columns[2]));
+}
+
 }  // namespace mien
