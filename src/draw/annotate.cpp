@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "draw/blend.hpp"
+#include "draw/legend.hpp"
 
 #include "mien/error.hpp"
 
@@ -116,8 +117,8 @@ double share_at(Align align) {
     return align == Align::left ? 0 : align == Align::middle ? 0.5 : 1;
 }
 
-constexpr double capitals = 0.729;  // the height of DejaVu's capitals over the em
-constexpr double halo_width = 0.3;  // over the em, half of it outside the letters
+constexpr double capitals = 0.729;   // the height of DejaVu's capitals over the em
+constexpr double halo_width = 0.26;  // over the em, half of it outside the letters
 
 // What a line of text covers: ascenders, descenders and accents with some air.
 Box label_box(Vec2f at, double width, const LabelStyle& style) {
@@ -175,9 +176,8 @@ void draw_label(Picture& picture, Vec2f at, std::string_view text, const LabelSt
 void draw_line(Picture& picture, Vec2f from, Vec2f to, const LineStyle& style) {
     if (!is_near(from) || !is_near(to)) return;
     const double reach = style.width / 2 + 1;
-    const auto [left, right] = std::minmax<double>(from.x, to.x);
-    const auto [top, bottom] = std::minmax<double>(from.y, to.y);
-    const Layer layer(picture, {left - reach, top - reach, right + reach, bottom + reach});
+    const Layer layer(picture, {std::min(from.x, to.x) - reach, std::min(from.y, to.y) - reach,
+                                std::max(from.x, to.x) + reach, std::max(from.y, to.y) + reach});
     layer.ink(style.ink);
     cairo_set_line_width(layer.context(), style.width);
     cairo_set_line_cap(layer.context(), CAIRO_LINE_CAP_ROUND);
@@ -265,6 +265,11 @@ void draw_points(Picture& picture, std::span<const Vec2f> places, std::span<cons
     }
 }
 
+LegendEnds ends_of(const Legend& legend) {
+    return {fmt::format("{:.3g}", legend.low),
+            fmt::format("{:.3g}{}{}", legend.high, legend.unit.empty() ? "" : " ", legend.unit)};
+}
+
 void draw_legend(Picture& picture, Vec2f at, const Legend& legend, const LabelStyle& style) {
     if (!is_near(at)) return;
     const auto left = std::lround(at.x), top = std::lround(at.y);
@@ -275,13 +280,12 @@ void draw_legend(Picture& picture, Vec2f at, const Legend& legend, const LabelSt
             lay_over(&picture.rgba[4 * (std::size_t{picture.width} * y + x)], colour);
     }
     const auto middle = static_cast<float>(static_cast<double>(top) + static_cast<double>(height) / 2);
-    const auto gap = static_cast<float>(0.5 * style.size);
+    const auto gap = static_cast<float>(legend_gap * style.size);
     LabelStyle before = style, behind = style;
     before.align = Align::right;
     behind.align = Align::left;
-    const std::string high = fmt::format("{:.3g}{}{}", legend.high, legend.unit.empty() ? "" : " ", legend.unit);
-    draw_label(picture, {static_cast<float>(left) - gap, middle}, fmt::format("{:.3g}", legend.low), before);
-    draw_label(picture, {static_cast<float>(left + width) + gap, middle}, high, behind);
+    draw_label(picture, {static_cast<float>(left) - gap, middle}, ends_of(legend).before, before);
+    draw_label(picture, {static_cast<float>(left + width) + gap, middle}, ends_of(legend).behind, behind);
 }
 
 }  // namespace mien

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "draw/blend.hpp"
+#include "draw/legend.hpp"
 
 #include "mien/error.hpp"
 
@@ -28,8 +29,15 @@ bool starts_letter(char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;  // not inside a letter of UTF-8
 }
 
-// How many bytes of the text go on a line: up to the last blank, or behind the last sign that may end a line, or, where
-// a single word is too long, as many letters as fit. One letter always does.
+// Whether a line may end before byte `at`: at a blank, behind a sign that joins words, inside "jawOpen".
+bool may_break(std::string_view text, std::size_t at) {
+    const char last = text[at - 1], next = text[at];
+    const bool hump = last >= 'a' && last <= 'z' && next >= 'A' && next <= 'Z';
+    return hump || next == ' ' || std::string_view("+/_-,").find(last) != std::string_view::npos;
+}
+
+// How many bytes of the text go on a line: up to the last place where it may break, or, where there is none, as many
+// letters as fit. One letter always does.
 std::size_t bytes_that_fit(std::string_view text, double width, const LabelStyle& style) {
     if (label_width(text, style) <= width) return text.size();
     std::size_t letters = 0, words = 0;
@@ -37,7 +45,7 @@ std::size_t bytes_that_fit(std::string_view text, double width, const LabelStyle
         if (!starts_letter(text[end])) continue;
         if (letters > 0 && label_width(text.substr(0, end), style) > width) break;
         letters = end;
-        if (text[end] == ' ' || std::string_view("+/_-,").find(text[end - 1]) != std::string_view::npos) words = end;
+        if (may_break(text, end)) words = end;
     }
     if (words > 0) return words;
     return letters > 0 ? letters : text.size();
@@ -147,7 +155,7 @@ void break_texts(const GridNames& names, const SheetOptions& options, Layout& la
     const auto cell = static_cast<double>(layout.cell_width);
     layout.captions = block(names.cells, cell, names.columns.empty() ? style : quiet(style));
     layout.heads = block(names.columns, cell, style);
-    const double names_room = std::max(0.75 * cell, 6 * style.size);
+    const double names_room = std::max(0.75 * cell, 9 * style.size);
     layout.names = block(names.rows, names_room, names_style);
     double widest = 0;
     for (const Lines& lines : layout.names.texts)
@@ -235,14 +243,16 @@ void lay_cells(Picture& sheet, std::span<const Picture> pictures, const Layout& 
     }
 }
 
+// The bar with what is written at its ends is centred as a whole.
 void lay_legend(Picture& sheet, const Layout& layout, const SheetOptions& options) {
     if (!options.legend) return;
+    const Legend& legend = *options.legend;
+    const LabelStyle style = quiet(text_style(options));
+    const double lean = label_width(ends_of(legend).before, style) - label_width(ends_of(legend).behind, style);
+    const double left = (static_cast<double>(layout.width) - legend.width + lean) / 2;
     const double room = static_cast<double>(legend_height(options) - options.gap);
-    const double top = static_cast<double>(layout.tops.back() + options.gap) + (room - options.legend->height) / 2;
-    draw_legend(
-        sheet,
-        {static_cast<float>((static_cast<double>(layout.width) - options.legend->width) / 2), static_cast<float>(top)},
-        *options.legend, quiet(text_style(options)));
+    const double top = static_cast<double>(layout.tops.back() + options.gap) + (room - legend.height) / 2;
+    draw_legend(sheet, {static_cast<float>(left), static_cast<float>(top)}, legend, style);
 }
 
 Picture make_sheet(std::span<const Picture> pictures, const GridNames& names, const SheetOptions& options,

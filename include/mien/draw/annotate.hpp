@@ -52,7 +52,7 @@ struct MarkerStyle {
 void draw_marker(Picture& picture, Vec2f at, const MarkerStyle& style = {});
 
 struct PointsStyle {
-    MarkerStyle marker;
+    MarkerStyle marker = {};
     LabelStyle label = {.size = 10.5, .halo = {255, 255, 255, 215}};
 };
 
@@ -65,7 +65,7 @@ void draw_points(Picture& picture, std::span<const Vec2f> places, std::span<cons
 /// What the colours of `heat_colour` mean: a bar from `low` at its left to `high` at its right.
 struct Legend {
     double low = 0, high = 1;
-    std::string unit;                 ///< written behind the high value: "mm from the truth"
+    std::string unit = {};            ///< written behind the high value: "mm from the truth"
     double width = 180, height = 10;  ///< of the bar, in pixels
 };
 

@@ -21,13 +21,13 @@ namespace mien {
 // picture; a row keeps room for as many lines as its longest caption has. Pictures that are not opaque show the paper.
 
 struct SheetOptions {
-    std::uint32_t columns = 0;     ///< of a contact sheet; 0 chooses what brings it nearest to the shape 3:2
-    std::string title;             ///< above all, in larger, heavier letters
-    std::string note;              ///< below the title, in grey: what the sheet shows and how it was made
-    std::optional<Legend> legend;  ///< below all, centred
-    std::uint32_t margin = 24;     ///< around all, in pixels
-    std::uint32_t gap = 12;        ///< between cells, in pixels
-    double text_size = 13;         ///< of captions and names, in pixels; titles follow it
+    std::uint32_t columns = 0;          ///< of a contact sheet; 0 chooses what brings it nearest to the shape 3:2
+    std::string title = {};             ///< above all, in larger, heavier letters
+    std::string note = {};              ///< below the title, in grey: what the sheet shows and how it was made
+    std::optional<Legend> legend = {};  ///< below all, centred
+    std::uint32_t margin = 24;          ///< around all, in pixels
+    std::uint32_t gap = 12;             ///< between cells, in pixels
+    double text_size = 13;              ///< of captions and names, in pixels; titles follow it
     Colour paper = {250, 249, 247};
     Colour ink = {40, 40, 44};
 };
@@ -44,9 +44,9 @@ Picture beside(const Picture& left, const Picture& right, std::span<const std::s
                const SheetOptions& options = {});
 
 struct GridNames {
-    std::vector<std::string> rows;     ///< to the left of each row: what is compared
-    std::vector<std::string> columns;  ///< above each column: by whom
-    std::vector<std::string> cells;    ///< below each picture, row by row: how it did; may be none at all
+    std::vector<std::string> rows = {};     ///< to the left of each row: what is compared
+    std::vector<std::string> columns = {};  ///< above each column: by whom
+    std::vector<std::string> cells = {};    ///< below each picture, row by row: how it did; may be none at all
 };
 
 /// Lays pictures, row by row, in a table with named rows and columns: shapes by methods with their errors in colour.
