@@ -34,3 +34,9 @@ target_link_libraries(epoxy INTERFACE ${EPOXY_LIBRARY})
 
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
+
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+if(MIEN_VIDEO)
+  pkg_check_modules(libav REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
+endif()

@@ -2,21 +2,19 @@
 // Copyright (c) 2026 the mien authors
 
 // Atomic writing: everything goes to a temporary name beside the target, is forced to the disk, and is renamed at the
-// end, so a reader finds the old content or the new and never a part. Without `overwrite` the rename itself refuses a
-// target that came to be in the meantime (renameat2 of Linux; elsewhere the check beforehand has to do).
+// end (io/temporary.hpp).
 
 #include "mien/io/write.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <string>
 #include <system_error>
-#include <unistd.h>
 
+#include "io/temporary.hpp"
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
@@ -30,74 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void cannot_write(const fs::path& path, std::string_view why) {
-    throw Error(fmt::format("{}: cannot write: {}", path.string(), why), Error::Kind::access);
-}
-
-[[noreturn]] void cannot_write(const fs::path& path, int error) {
-    cannot_write(path, std::generic_category().message(error));
-}
-
-bool is_there(const fs::path& path) {
-    std::error_code error;
-    return fs::exists(fs::symlink_status(path, error));
-}
-
 bool is_folder(const fs::path& path) {
     std::error_code error;
     return fs::is_directory(path, error);
-}
-
-void refuse_existing(const fs::path& path, const WriteOptions& options) {
-    if (!options.overwrite && is_there(path))
-        cannot_write(path, "it is there already; overwriting it has to be asked for");
-}
-
-// A name beside the target that no other file has; gone with this object unless it was moved to its target.
-class Temporary {
-public:
-    explicit Temporary(const fs::path& target) : target_(target), path_(free_name(target)) {}
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-    ~Temporary() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-    void move_to_target(const WriteOptions& options) const {
-        if (options.overwrite) {
-            if (std::rename(path_.c_str(), target_.c_str()) != 0) cannot_write(target_, errno);
-            return;
-        }
-#ifdef RENAME_NOREPLACE
-        if (renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return;
-        if (errno != EINVAL && errno != ENOSYS) cannot_write(target_, errno);
-#endif
-        refuse_existing(target_, options);
-        if (std::rename(path_.c_str(), target_.c_str()) != 0) cannot_write(target_, errno);
-    }
-
-private:
-    static fs::path free_name(const fs::path& target) {
-        for (int n = 0;; ++n) {
-            fs::path name = target;
-            name += fmt::format(".part-{}-{}", getpid(), n);
-            if (!is_there(name)) return name;
-        }
-    }
-
-    fs::path target_, path_;
-};
-
-// Forces a file or a folder to the disk.
-void synchronize(const fs::path& path, const fs::path& target) {
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) cannot_write(target, errno);
-    const int failed = fsync(file) != 0 ? errno : 0;
-    close(file);
-    if (failed != 0 && failed != EINVAL) cannot_write(target, failed);
 }
 
 // Lets `fill` write a new file at `path`; errors name the target that it is for.
@@ -114,11 +47,11 @@ void fill_file(const fs::path& path, const fs::path& target, const Fill& fill) {
 
 template <class Fill>
 void write_by(const fs::path& path, const WriteOptions& options, const Fill& fill) {
-    refuse_existing(path, options);
+    refuse_existing(path, options.overwrite);
     if (is_folder(path)) cannot_write(path, "it is a folder");
-    const Temporary temporary(path);
+    const Temporary temporary(path, options.overwrite);
     fill_file(temporary.path(), path, fill);
-    temporary.move_to_target(options);
+    temporary.move_to_target();
 }
 
 bool has_extension(const fs::path& path, std::string_view extension) {
@@ -179,15 +112,15 @@ void write_frames(const MeshSequence& sequence, const fs::path& folder, const fs
 
 // An old folder of frames steps aside and is removed at the end; a folder cannot be renamed over a full one.
 void write_folder(const MeshSequence& sequence, const fs::path& path, const WriteOptions& options) {
-    refuse_existing(path, options);
+    refuse_existing(path, options.overwrite);
     refuse_other_folder(path);
-    const Temporary temporary(path);
+    const Temporary temporary(path, options.overwrite);
     write_frames(sequence, temporary.path(), path);
-    if (!is_there(path)) return temporary.move_to_target(options);
+    if (!is_there(path)) return temporary.move_to_target();
     fs::path aside = temporary.path();
     aside += "-old";
     if (std::rename(path.c_str(), aside.c_str()) != 0) cannot_write(path, errno);
-    temporary.move_to_target(options);
+    temporary.move_to_target();
     std::error_code ignored;
     fs::remove_all(aside, ignored);
 }

@@ -7,7 +7,7 @@ usage: includes_point_inward.py ROOT
 import re
 import rule
 
-ROOMS = ("algorithms", "io", "live", "render")
+ROOMS = ("algorithms", "io", "live", "render", "draw")
 FRONTS = ("cli", "python", "studio", "blender")
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
