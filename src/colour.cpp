@@ -38,13 +38,28 @@ Colour from_oklab(double lightness, double a, double b) {
             encode(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
-}  // namespace
+// From blue (hue 260 degrees) at 0 and from red (27 degrees) at 1 straight to the light grey of the middle.
+constexpr double end_lightness = 0.42, middle_lightness = 0.93, end_chroma = 0.14;
+constexpr double blue_turn = 260.0 / 360, red_turn = 27.0 / 360;
 
-Colour heat_colour(double value) {
-    if (std::isnan(value)) return {128, 128, 128};
-    const double t = std::clamp(value, 0.0, 1.0);
+Colour on_helix(double t) {
     const double angle = 2 * std::numbers::pi * std::lerp(first_turn, last_turn, t);
     return from_oklab(std::lerp(dark, light, t), chroma * std::cos(angle), chroma * std::sin(angle));
+}
+
+Colour on_opposites(double t) {
+    const double away = std::abs(2 * t - 1);
+    const double angle = 2 * std::numbers::pi * (t < 0.5 ? blue_turn : red_turn);
+    return from_oklab(std::lerp(middle_lightness, end_lightness, away), away * end_chroma * std::cos(angle),
+                      away * end_chroma * std::sin(angle));
+}
+
+}  // namespace
+
+Colour colour_at(ColourScale scale, double share) {
+    if (std::isnan(share)) return {128, 128, 128};
+    const double t = std::clamp(share, 0.0, 1.0);
+    return scale == ColourScale::heat ? on_helix(t) : on_opposites(t);
 }
 
 }  // namespace mien

@@ -39,7 +39,8 @@ double distance(const Lab& p, const Lab& q) {
 TEST(HeatColour, takes_equal_steps_for_equal_differences_of_value) {
     std::vector<double> steps;
     for (int i = 0; i < 20; ++i)
-        steps.push_back(distance(oklab(heat_colour(i / 20.0)), oklab(heat_colour((i + 1) / 20.0))));
+        steps.push_back(distance(oklab(colour_at(ColourScale::heat, i / 20.0)),
+                                 oklab(colour_at(ColourScale::heat, (i + 1) / 20.0))));
     const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
     EXPECT_GT(*least, 0.03);
     EXPECT_LT(*most / *least, 1.1);  // 8 bits round a step of 0.04 by up to 0.002
@@ -47,20 +48,22 @@ TEST(HeatColour, takes_equal_steps_for_equal_differences_of_value) {
 
 TEST(HeatColour, grows_lighter_all_the_way) {
     for (int i = 0; i < 64; ++i)
-        EXPECT_LT(oklab(heat_colour(i / 64.0)).lightness, oklab(heat_colour((i + 1) / 64.0)).lightness) << i;
+        EXPECT_LT(oklab(colour_at(ColourScale::heat, i / 64.0)).lightness,
+                  oklab(colour_at(ColourScale::heat, (i + 1) / 64.0)).lightness)
+            << i;
 }
 
 TEST(HeatColour, keeps_its_chroma_and_so_lies_inside_srgb) {
     for (int i = 0; i <= 64; ++i) {
-        const Lab lab = oklab(heat_colour(i / 64.0));
+        const Lab lab = oklab(colour_at(ColourScale::heat, i / 64.0));
         EXPECT_NEAR(std::hypot(lab.a, lab.b), 0.16, 0.008) << i;
     }
 }
 
 TEST(HeatColour, stops_at_its_ends_and_shows_what_is_no_number_in_grey) {
-    EXPECT_EQ(heat_colour(-3), heat_colour(0));
-    EXPECT_EQ(heat_colour(std::numeric_limits<double>::infinity()), heat_colour(1));
-    EXPECT_EQ(heat_colour(std::nan("")), (Colour{128, 128, 128}));
+    EXPECT_EQ(colour_at(ColourScale::heat, -3), colour_at(ColourScale::heat, 0));
+    EXPECT_EQ(colour_at(ColourScale::heat, std::numeric_limits<double>::infinity()), colour_at(ColourScale::heat, 1));
+    EXPECT_EQ(colour_at(ColourScale::heat, std::nan("")), (Colour{128, 128, 128}));
 }
 
 }  // namespace

@@ -13,12 +13,19 @@ struct Colour {
     friend constexpr bool operator==(const Colour&, const Colour&) = default;
 };
 
-/// The colour for a value from 0 (dark violet) over rose and orange to 1 (light yellow), in which equal steps of the
-/// value look equally large and a grey copy keeps the order. Values outside take the nearer end; NaN is grey.
+/// How numbers become colours.
+enum class ColourScale {
+    heat,      ///< from dark violet over rose and orange to light yellow: something from none to much
+    opposite,  ///< from blue over light grey to red: something to both sides of a middle
+};
+
+/// The colour of `share` on a scale: what surfaces are painted with and legends show. A share outside 0 to 1 takes the
+/// nearer end; NaN is grey.
 ///
-/// A helix in the perceptual space OKLab (B. Ottosson, "A perceptual color space for image processing", 2020):
-/// lightness and hue grow evenly at constant chroma, so the speed is the same everywhere. The idea of a helix of even
-/// lightness is D. A. Green's cubehelix ("A colour scheme for the display of astronomical intensity images", 2011).
-Colour heat_colour(double value);
+/// Equal steps look equally large, and a grey copy of `heat` keeps the order: it is a helix in the perceptual space
+/// OKLab (B. Ottosson, "A perceptual color space for image processing", 2020) in which lightness and hue grow evenly at
+/// constant chroma. The idea of a helix of even lightness is D. A. Green's cubehelix ("A colour scheme for the display
+/// of astronomical intensity images", 2011). `opposite` runs straight in that space from either end to the middle.
+Colour colour_at(ColourScale scale, double share);
 
 }  // namespace mien

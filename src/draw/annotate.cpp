@@ -275,7 +275,7 @@ void draw_legend(Picture& picture, Vec2f at, const Legend& legend, const LabelSt
     const auto left = std::lround(at.x), top = std::lround(at.y);
     const auto width = std::max(2L, std::lround(legend.width)), height = std::max(1L, std::lround(legend.height));
     for (long x = std::max(0L, left); x < std::min<long>(picture.width, left + width); ++x) {
-        const Colour colour = heat_colour(static_cast<double>(x - left) / static_cast<double>(width - 1));
+        const Colour colour = colour_at(legend.scale, static_cast<double>(x - left) / static_cast<double>(width - 1));
         for (long y = std::max(0L, top); y < std::min<long>(picture.height, top + height); ++y)
             lay_over(&picture.rgba[4 * (std::size_t{picture.width} * y + x)], colour);
     }

@@ -59,7 +59,7 @@ double power(const Lamp& lamp) {
     return 0.2126 * lamp.light.x + 0.7152 * lamp.light.y + 0.0722 * lamp.light.z;
 }
 
-Vec3 colour(const Colour& c) {
+Vec3 colour(const Rgb& c) {
     return {c[0], c[1], c[2]};
 }
 

@@ -55,9 +55,8 @@ void upload_pictures(StillModel& still, const Scene& scene) {
 GlName scale_picture(ColourScale scale) {
     std::vector<std::uint8_t> texels;
     for (int i = 0; i < 256; ++i) {
-        for (const float channel : colour_at(scale, i / 255.0))
-            texels.push_back(static_cast<std::uint8_t>(std::lround(255 * channel)));
-        texels.push_back(255);
+        const Colour colour = colour_at(scale, i / 255.0);
+        texels.insert(texels.end(), {colour.r, colour.g, colour.b, 255});
     }
     GlName texture(GlName::Kind::texture);
     bind_texture(0, texture.name());

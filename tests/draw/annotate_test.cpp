@@ -199,12 +199,12 @@ TEST(DrawPoints, wants_a_name_for_each_place) {
 TEST(DrawLegend, goes_from_the_lowest_colour_to_the_highest) {
     Picture picture = plain(400, 40);
     draw_legend(picture, {100, 15}, {.low = 0, .high = 3.5, .unit = "mm", .width = 200, .height = 10});
-    EXPECT_EQ(pixel(picture, 100, 15), heat_colour(0));
-    EXPECT_EQ(pixel(picture, 299, 24), heat_colour(1));
+    EXPECT_EQ(pixel(picture, 100, 15), colour_at(ColourScale::heat, 0));
+    EXPECT_EQ(pixel(picture, 299, 24), colour_at(ColourScale::heat, 1));
     EXPECT_EQ(pixel(picture, 300, 24), white);
     EXPECT_EQ(pixel(picture, 200, 14), white);
     for (std::size_t x = 0; x < 200; ++x)
-        ASSERT_EQ(pixel(picture, 100 + x, 20), heat_colour(static_cast<double>(x) / 199)) << x;
+        ASSERT_EQ(pixel(picture, 100 + x, 20), colour_at(ColourScale::heat, static_cast<double>(x) / 199)) << x;
 }
 
 TEST(DrawLegend, writes_its_ends_outside_the_bar) {

@@ -62,11 +62,12 @@ struct PointsStyle {
 void draw_points(Picture& picture, std::span<const Vec2f> places, std::span<const std::string> names,
                  const PointsStyle& style = {});
 
-/// What the colours of `heat_colour` mean: a bar from `low` at its left to `high` at its right.
+/// What the colours of a scale mean: a bar from `low` at its left to `high` at its right.
 struct Legend {
     double low = 0, high = 1;
     std::string unit = {};            ///< written behind the high value: "mm from the truth"
     double width = 180, height = 10;  ///< of the bar, in pixels
+    ColourScale scale = ColourScale::heat;
 };
 
 /// Draws the bar with its upper left corner at `at` (rounded to a pixel), the low value before it and the high one with

@@ -11,23 +11,23 @@
 
 namespace mien {
 
-/// A colour as files and pictures have it: sRGB red, green, blue, 0 to 1.
-using Colour = std::array<float, 3>;
+/// Red, green and blue, 0 to 1: sRGB where nothing else is said.
+using Rgb = std::array<float, 3>;
 
 /// A lamp far away with a flat, square face: a soft box in a photographer's studio.
 struct Light {
     /// From the subject to the lamp, as the camera sees it: +x to the right of the picture, +y upwards in the world,
     /// +z towards the camera. The studio turns with the camera, so every view is lit alike. Need not be of length 1.
     Vec3 direction{0, 0, 1};
-    Colour colour{1, 1, 1};  ///< linear; 1 lights a white surface that faces the lamp to white before tone mapping
-    double half_size = 12;   ///< degrees from the lamp's middle to its edge, 0 to 45: larger is softer
+    Rgb colour{1, 1, 1};    ///< linear; 1 lights a white surface that faces the lamp to white before tone mapping
+    double half_size = 12;  ///< degrees from the lamp's middle to its edge, 0 to 45: larger is softer
 };
 
 /// A small ball that marks a place: a feature point, a captured marker.
 struct Mark {
     Vec3 position;
     double radius = 4;  ///< pixels
-    Colour colour{1, 0.3F, 0};
+    Rgb colour{1, 0.3F, 0};
     bool always_on_top = false;  ///< drawn even where a surface lies before it
 };
 
@@ -41,21 +41,12 @@ struct Look {
     Quality quality = Quality::full;
     std::uint32_t passes = 48;  ///< of `full`, 8 to 1024: more is smoother and takes longer in proportion
     std::vector<Light> lights;  ///< empty: three, as a portrait has them: key, fill, rim
-    Colour sky{0.50F, 0.52F, 0.55F}, ground{0.26F, 0.24F, 0.22F};  ///< linear light from above and below
-    double exposure = 1;                                           ///< times all light
-    Colour top{0.80F, 0.81F, 0.83F}, bottom{0.52F, 0.54F, 0.57F};  ///< background
-    bool transparent = false;                                      ///< no background: alpha 0 where nothing is drawn
-    bool wire = false;                                             ///< the edges of the triangles over the surfaces
+    Rgb sky{0.50F, 0.52F, 0.55F}, ground{0.26F, 0.24F, 0.22F};  ///< linear light from above and below
+    double exposure = 1;                                        ///< times all light
+    Rgb top{0.80F, 0.81F, 0.83F}, bottom{0.52F, 0.54F, 0.57F};  ///< background
+    bool transparent = false;                                   ///< no background: alpha 0 where nothing is drawn
+    bool wire = false;                                          ///< the edges of the triangles over the surfaces
     std::vector<Mark> marks;
 };
-
-/// How numbers become colours.
-enum class ColourScale {
-    heat,      ///< from dark blue over green to yellow: something from none to much
-    opposite,  ///< from blue over light grey to red: something to both sides of a middle
-};
-
-/// The colour of `share` (0 to 1, held at the ends) on a scale: what surfaces are painted with and legends show.
-Colour colour_at(ColourScale scale, double share);
 
 }  // namespace mien
