@@ -53,4 +53,19 @@ Take rename_points(const Take& take, std::span<const Rename> names) {
     return result;
 }
 
+Frame frame_at(const Take& take, double time) {
+    if (take.times.empty()) throw Error("take: expected a row, found none");
+    const auto after = static_cast<std::size_t>(std::upper_bound(take.times.begin(), take.times.end(), time) -
+                                                take.times.begin());
+    const std::size_t b = std::min(after, row_count(take) - 1), a = after == 0 ? 0 : after - 1;
+    const double share = a == b ? 0 : (time - take.times[a]) / (take.times[b] - take.times[a]);
+    Frame frame{time, {}, {}};
+    for (std::size_t i = 0; i < take.points.size(); ++i) {
+        const Vec3 &from = row(take, a)[i], &to = row(take, b)[i];
+        frame.points.push_back(share == 0 ? from : from + share * (to - from));
+    }
+    if (!take.head.empty()) frame.head = take.head[share < 0.5 ? a : b];
+    return frame;
+}
+
 }  // namespace mien

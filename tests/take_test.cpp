@@ -35,5 +35,20 @@ TEST(Take, renaming_two_columns_to_one_id_is_refused) {
     EXPECT_THROW(rename_points(two_markers(), names), Error);
 }
 
+TEST(Take, BetweenRowsItIsLinearAndBeyondThemItHolds) {
+    Take take{{"a", "b"}, {1, 3, 4}, {{0, 0, 0}, {5, 5, 5}, {4, 8, -2}, lost_sample, {4, 8, 2}, {1, 1, 1}}, {}, "m"};
+    EXPECT_EQ(frame_at(take, 0).points[0], (Vec3{0, 0, 0}));
+    EXPECT_EQ(frame_at(take, 1).points[1], (Vec3{5, 5, 5}));
+    EXPECT_EQ(frame_at(take, 1.5).points[0], (Vec3{1, 2, -0.5}));
+    EXPECT_EQ(frame_at(take, 3).points[0], (Vec3{4, 8, -2}));
+    EXPECT_EQ(frame_at(take, 9).points[1], (Vec3{1, 1, 1}));
+    EXPECT_FALSE(is_finite(frame_at(take, 2).points[1]));
+    EXPECT_FALSE(is_finite(frame_at(take, 3.5).points[1]));
+    take.head = {{{}, {1, 0, 0}}, {{}, {2, 0, 0}}, {{}, {3, 0, 0}}};
+    EXPECT_EQ(frame_at(take, 1.9).head.translation.x, 1);
+    EXPECT_EQ(frame_at(take, 2.1).head.translation.x, 2);
+    EXPECT_THROW((void)frame_at(Take{}, 0), Error);
+}
+
 }  // namespace
 }  // namespace mien

@@ -75,13 +75,13 @@ MeshSequence watched(const MeshSequence& sequence, const WriteOptions& options) 
 }
 
 // Numbered from 1 with equal width, so that listings are in order.
-std::string frame_name(std::size_t row) {
-    return fmt::format("frame_{:06}.obj", row + 1);
+std::string frame_name(std::size_t row, std::string_view extension) {
+    return fmt::format("frame_{:06}{}", row + 1, extension);
 }
 
-bool is_frame(const fs::directory_entry& entry) {
+bool is_frame(const fs::directory_entry& entry, std::string_view back) {
     const std::string name = entry.path().filename().string();
-    constexpr std::string_view front = "frame_", back = ".obj";
+    constexpr std::string_view front = "frame_";
     if (name.size() < front.size() + 6 + back.size() || !name.starts_with(front) || !name.ends_with(back)) return false;
     std::error_code error;
     return name.find_first_not_of("0123456789", front.size()) == name.size() - back.size() &&
@@ -89,40 +89,31 @@ bool is_frame(const fs::directory_entry& entry) {
 }
 
 // Only a folder that holds nothing but frames is replaced: a mistyped path must not cost a home directory.
-void refuse_other_folder(const fs::path& path) {
+void refuse_other_folder(const fs::path& path, std::string_view extension) {
     if (!is_there(path)) return;
-    if (!is_folder(path)) cannot_write(path, "it is a file; expected a folder of .obj frames or nothing");
+    if (!is_folder(path)) cannot_write(path, fmt::format("it is a file; expected a folder of {} frames or nothing", extension));
     std::error_code error;
     for (auto entry = fs::directory_iterator(path, error); entry != fs::directory_iterator(); entry.increment(error))
-        if (!is_frame(*entry)) cannot_write(path, "the folder holds other files than frame_000001.obj and so on");
+        if (!is_frame(*entry, extension))
+            cannot_write(path, fmt::format("the folder holds other files than {} and so on", frame_name(0, extension)));
     if (error) cannot_write(path, error.message());
 }
 
-void write_frames(const MeshSequence& sequence, const fs::path& folder, const fs::path& target) {
+void fill_folder(const fs::path& folder, const fs::path& target, const Frames& frames) {
     std::error_code error;
     if (!fs::create_directory(folder, error)) cannot_write(target, error ? error.value() : EEXIST);
-    std::vector<Vec3f> positions(vertex_count(sequence.mesh));
-    for (std::size_t row = 0; row < sequence.times.size(); ++row) {
-        sequence.positions(row, positions);
-        fill_file(folder / frame_name(row), target,
-                  [&](std::ostream& out) { format_obj(sequence.mesh, positions, out); });
-    }
+    for (std::size_t row = 0; row < frames.count; ++row)
+        fill_file(folder / frame_name(row, frames.extension), target,
+                  [&](std::ostream& out) { frames.write(row, out); });
     synchronize(folder, target);
 }
 
-// An old folder of frames steps aside and is removed at the end; a folder cannot be renamed over a full one.
-void write_folder(const MeshSequence& sequence, const fs::path& path, const WriteOptions& options) {
-    refuse_existing(path, options.overwrite);
-    refuse_other_folder(path);
-    const Temporary temporary(path, options.overwrite);
-    write_frames(sequence, temporary.path(), path);
-    if (!is_there(path)) return temporary.move_to_target();
-    fs::path aside = temporary.path();
-    aside += "-old";
-    if (std::rename(path.c_str(), aside.c_str()) != 0) cannot_write(path, errno);
-    temporary.move_to_target();
-    std::error_code ignored;
-    fs::remove_all(aside, ignored);
+Frames obj_frames(const MeshSequence& sequence, std::vector<Vec3f>& positions) {
+    positions.resize(vertex_count(sequence.mesh));
+    return {".obj", sequence.times.size(), [&](std::size_t row, std::ostream& out) {
+                sequence.positions(row, positions);
+                format_obj(sequence.mesh, positions, out);
+            }};
 }
 
 }  // namespace
@@ -131,6 +122,21 @@ void write_file(const fs::path& path, std::span<const std::byte> bytes, const Wr
     write_by(path, options, [&](std::ostream& out) {
         out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     });
+}
+
+// An old folder of frames steps aside and is removed at the end; a folder cannot be renamed over a full one.
+void write_folder(const Frames& frames, const fs::path& path, const WriteOptions& options) {
+    refuse_existing(path, options.overwrite);
+    refuse_other_folder(path, frames.extension);
+    const Temporary temporary(path, options.overwrite);
+    fill_folder(temporary.path(), path, frames);
+    if (!is_there(path)) return temporary.move_to_target();
+    fs::path aside = temporary.path();
+    aside += "-old";
+    if (std::rename(path.c_str(), aside.c_str()) != 0) cannot_write(path, errno);
+    temporary.move_to_target();
+    std::error_code ignored;
+    fs::remove_all(aside, ignored);
 }
 
 void write(const Take& take, const fs::path& path, const WriteOptions& options) {
@@ -143,7 +149,8 @@ void write(const MeshSequence& sequence, const fs::path& path, const WriteOption
     const MeshSequence rows = watched(sequence, options);
     if (has_extension(path, ".mdd")) return write_by(path, options, [&](std::ostream& out) { format_mdd(rows, out); });
     if (has_extension(path, ".pc2")) return write_by(path, options, [&](std::ostream& out) { format_pc2(rows, out); });
-    if (path.extension().empty()) return write_folder(rows, path, options);
+    std::vector<Vec3f> positions;
+    if (path.extension().empty()) return write_folder(obj_frames(rows, positions), path, options);
     unknown_extension(path, ".mdd, .pc2 or, for a folder of .obj, in no extension");
 }
 

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <span>
+#include <string>
 
 #include "mien/mesh_sequence.hpp"
 #include "mien/take.hpp"
@@ -22,6 +24,17 @@ struct WriteOptions {
 /// Writes bytes so that the path holds the old bytes or the new ones, never a part: to a temporary file beside it,
 /// which is then renamed. Throws Error (Kind::access) and leaves nothing behind.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes, const WriteOptions& options = {});
+
+/// Files of one kind, numbered from 1 and written one after the other.
+struct Frames {
+    std::string extension;  ///< with its dot: ".png"
+    std::size_t count = 0;
+    std::function<void(std::size_t row, std::ostream& out)> write;  ///< called once per row, in order
+};
+
+/// Writes a folder of frame_000001.png ... as a whole or not at all. A folder is replaced only when it holds nothing but
+/// such frames.
+void write_folder(const Frames& frames, const std::filesystem::path& path, const WriteOptions& options = {});
 
 /// Writes a take by its extension: .csv .trc.
 void write(const Take& take, const std::filesystem::path& path, const WriteOptions& options = {});

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "actor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+#include "mien/algorithms/complete.hpp"
+#include "mien/algorithms/key_rows.hpp"
+#include "mien/error.hpp"
+#include "mien/face.hpp"
+#include "mien/io/gltf.hpp"
+#include "mien/io/read.hpp"
+#include "mien/render/dress.hpp"
+
+namespace mien::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void take_part(Actor& actor, const fs::path& file, const fs::path& take, Report& report) {
+    RigFile read = read_rig(file);
+    actor.rig = std::move(read.rig);
+    if (take.empty()) return;
+    const Take target = read_take(take);
+    const TakeBinding binding = bind_take(*actor.rig, target);
+    report["points_carried_by_the_skin"] = binding.missing;
+    report["columns_not_used"] = binding.unused;
+    actor.take = complete({read.mesh, actor.rig->points}, target);
+    actor.binding = bind_take(*actor.rig, actor.take);
+    actor.seconds = actor.take.times.empty() ? 0 : actor.take.times.back();
+}
+
+std::vector<Vec3f> displacements_at(const Actor& actor, double time) {
+    std::vector<Vec3f> moves(actor.rig->points.size());
+    if (row_count(actor.take) > 0)
+        displacements(*actor.rig, actor.binding, frame_at(actor.take, time).points, moves);
+    return moves;
+}
+
+Movement movement(const Actor& actor) {
+    return {actor.rig ? &*actor.rig : nullptr, {}, actor.vertices};
+}
+
+// How far apart pictures may be, and of how many vertices, when motion is looked at to choose from it.
+constexpr std::size_t most_times = 240, most_vertices = 500;
+
+}  // namespace
+
+Actor load_actor(const fs::path& file, const fs::path& take, Report& report) {
+    Actor actor;
+    actor.name = file.stem().string();
+    const Mesh mesh = read_mesh(file);
+    if (mesh.gltf.empty()) {
+        MeshScene plain = scene_of(mesh);
+        actor.scene = std::move(plain.scene);
+        actor.vertices = std::move(plain.vertices);
+    } else {
+        actor.scene = read_scene(file);
+        actor.seconds = duration(actor.scene);
+    }
+    if (is_rig(mesh))
+        take_part(actor, file, take, report);
+    else if (!take.empty())
+        throw Error(fmt::format("{}: expected a rig file to play a take on, as mien rig writes it; found another file",
+                                file.string()));
+    dress(actor.scene, movement(actor));
+    report["file"] = file.filename().string();
+    report["vertices"] = vertex_count(mesh);
+    report["seconds"] = actor.seconds;
+    if (!actor.scene.left_out.empty()) report["left_out"] = actor.scene.left_out;
+    return actor;
+}
+
+ModelId upload(Renderer& renderer, const Actor& actor) {
+    return actor.rig ? renderer.upload(actor.scene, movement(actor)) : renderer.upload(actor.scene);
+}
+
+void pose(Renderer& renderer, ModelId model, const Actor& actor, double time) {
+    if (actor.rig)
+        renderer.pose(model, displacements_at(actor, time));
+    else
+        renderer.pose(model, pose_at(actor.scene, time));
+}
+
+std::vector<NamedPlace> points_at(const Actor& actor, double time) {
+    std::vector<NamedPlace> places;
+    if (actor.rig) {
+        const std::vector<Vec3f> moves = displacements_at(actor, time);
+        for (std::size_t i = 0; i < moves.size(); ++i)
+            places.push_back({actor.rig->points[i].id, actor.rig->points[i].position + to_double(moves[i])});
+        return places;
+    }
+    const ScenePose pose = pose_at(actor.scene, time);
+    for (std::size_t i = 0; i < actor.scene.nodes.size(); ++i)
+        if (!mirror_point(actor.scene.nodes[i].name).empty())
+            places.push_back({actor.scene.nodes[i].name, pose.worlds[i].offset});
+    return places;
+}
+
+std::vector<double> key_times(Renderer& renderer, ModelId model, const Actor& actor, std::size_t count) {
+    if (!(actor.seconds > 0)) return {0};
+    std::vector<Vec3f> all(renderer.vertex_count(model)), some;
+    const std::size_t stride = all.size() / most_vertices + 1;
+    std::vector<double> times;
+    for (std::size_t i = 0; i < most_times; ++i) {
+        times.push_back(actor.seconds * static_cast<double>(i) / (most_times - 1));
+        pose(renderer, model, actor, times.back());
+        renderer.read_positions(model, all);
+        for (std::size_t v = 0; v < all.size(); v += stride) some.push_back(all[v]);
+    }
+    std::vector<double> chosen;
+    for (const std::size_t row : key_rows(some, some.size() / times.size(), count)) chosen.push_back(times[row]);
+    return chosen;
+}
+
+}  // namespace mien::cli
