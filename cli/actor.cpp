@@ -37,8 +37,7 @@ void take_part(Actor& actor, const fs::path& file, const fs::path& take, Report&
 
 std::vector<Vec3f> displacements_at(const Actor& actor, double time) {
     std::vector<Vec3f> moves(actor.rig->points.size());
-    if (row_count(actor.take) > 0)
-        displacements(*actor.rig, actor.binding, frame_at(actor.take, time).points, moves);
+    if (row_count(actor.take) > 0) displacements(*actor.rig, actor.binding, frame_at(actor.take, time).points, moves);
     return moves;
 }
 

@@ -26,7 +26,7 @@ struct NamedPlace {
 
 /// Somebody to draw: a head or an animated scene, and what moves it.
 struct Actor {
-    std::string name;                     ///< the file's, for captions
+    std::string name;  ///< the file's, for captions
     Scene scene;
     std::vector<std::uint32_t> vertices;  ///< as Movement::vertices
     std::optional<Rig> rig;               ///< its points move the head, by their exact weights

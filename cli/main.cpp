@@ -10,6 +10,7 @@
 #include <tbb/global_control.h>
 #include <thread>
 
+#include "interrupt.hpp"
 #include "verb.hpp"
 
 #include "mien/error.hpp"
@@ -53,6 +54,7 @@ int run(int argc, char** argv) {
     add_rig(app, call);
     add_retarget(app, call);
     add_deform(app, call);
+    add_render(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -80,6 +82,8 @@ int guarded_run(int argc, char** argv) {
         return fail(error.what(), error.kind() == Error::Kind::access ? 3 : 1);
     } catch (const GateError& error) {
         return fail(error.what(), 4);
+    } catch (const Interrupted& stop) {
+        return fail(stop.what(), 130);
     } catch (const std::bad_alloc&) {
         return fail("there is not enough memory for this input", 1);
     } catch (const std::exception& error) {

@@ -47,5 +47,6 @@ void add_inspect(CLI::App& app, Call& call);
 void add_rig(CLI::App& app, Call& call);
 void add_retarget(CLI::App& app, Call& call);
 void add_deform(CLI::App& app, Call& call);
+void add_render(CLI::App& app, Call& call);
 
 }  // namespace mien::cli

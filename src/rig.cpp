@@ -80,4 +80,14 @@ void joint_poses(const Rig& rig, std::span<const Vec3f> displacements, std::span
         poses[rig.points.size() + 1 + e].rotation = eyeball_turn(rig, rig.eyeballs[e], displacements);
 }
 
+std::vector<float> weights_of(const Rig& rig, std::size_t point) {
+    const auto larger = [](float a, float b) { return std::abs(b) > std::abs(a) ? b : a; };
+    std::vector<float> weights(vertex_count(rig), 0);
+    for (std::size_t v = 0; v < weights.size(); ++v)
+        for (std::uint32_t e = rig.row_starts[v]; e < rig.row_starts[v + 1]; ++e)
+            if (rig.row_points[e] == point)
+                weights[v] = larger(larger(rig.weights[e].x, rig.weights[e].y), rig.weights[e].z);
+    return weights;
+}
+
 }  // namespace mien

@@ -55,8 +55,8 @@ Take rename_points(const Take& take, std::span<const Rename> names) {
 
 Frame frame_at(const Take& take, double time) {
     if (take.times.empty()) throw Error("take: expected a row, found none");
-    const auto after = static_cast<std::size_t>(std::upper_bound(take.times.begin(), take.times.end(), time) -
-                                                take.times.begin());
+    const auto after =
+        static_cast<std::size_t>(std::upper_bound(take.times.begin(), take.times.end(), time) - take.times.begin());
     const std::size_t b = std::min(after, row_count(take) - 1), a = after == 0 ? 0 : after - 1;
     const double share = a == b ? 0 : (time - take.times[a]) / (take.times[b] - take.times[a]);
     Frame frame{time, {}, {}};

@@ -52,6 +52,10 @@ inline std::size_t vertex_count(const Rig& rig) {
     return rig.rest.size();
 }
 
+/// How far one point moves each vertex: of its weights along x, y and z the one of largest size. Zero where it has
+/// none.
+std::vector<float> weights_of(const Rig& rig, std::size_t point);
+
 /// The rig as every engine knows it: a fixed number of joints per vertex with weights that are non-negative and sum
 /// to 1. Joint j < points is feature point j and only translates; joint number `points.size()` stands still; joints
 /// after it are the eyeballs in order, which turn. Heaviest joint first; unused slots hold joint 0 with weight 0.

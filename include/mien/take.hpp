@@ -46,8 +46,8 @@ inline std::span<Vec3> row(Take& take, std::size_t row) {
     return std::span(take.samples).subspan(row * take.points.size(), take.points.size());
 }
 
-/// The take at `time` (seconds): linear between rows, held before the first and after the last. A sample that is lost in
-/// one of the two rows is lost. Head poses are those of the nearer row. Throws Error if the take has no row.
+/// The take at `time` (seconds): linear between rows, held before the first and after the last. A sample that is lost
+/// in one of the two rows is lost. Head poses are those of the nearer row. Throws Error if the take has no row.
 Frame frame_at(const Take& take, double time);
 
 /// Column of the point called `id`, or nothing.

@@ -91,7 +91,8 @@ bool is_frame(const fs::directory_entry& entry, std::string_view back) {
 // Only a folder that holds nothing but frames is replaced: a mistyped path must not cost a home directory.
 void refuse_other_folder(const fs::path& path, std::string_view extension) {
     if (!is_there(path)) return;
-    if (!is_folder(path)) cannot_write(path, fmt::format("it is a file; expected a folder of {} frames or nothing", extension));
+    if (!is_folder(path))
+        cannot_write(path, fmt::format("it is a file; expected a folder of {} frames or nothing", extension));
     std::error_code error;
     for (auto entry = fs::directory_iterator(path, error); entry != fs::directory_iterator(); entry.increment(error))
         if (!is_frame(*entry, extension))
