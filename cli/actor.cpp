@@ -10,11 +10,13 @@
 
 #include "mien/algorithms/complete.hpp"
 #include "mien/algorithms/key_rows.hpp"
+#include "mien/algorithms/tracks.hpp"
 #include "mien/error.hpp"
 #include "mien/face.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/read.hpp"
 #include "mien/render/dress.hpp"
+#include "mien/render/take_scene.hpp"
 
 namespace mien::cli {
 
@@ -50,7 +52,29 @@ constexpr std::size_t most_times = 240, most_vertices = 500;
 
 }  // namespace
 
+namespace {
+
+bool is_take(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    return extension == ".trc" || extension == ".csv";
+}
+
+Actor captured(const fs::path& file, Report& report) {
+    Actor actor;
+    actor.name = file.stem().string();
+    const Take take = drop_never_seen(read_take(file));
+    actor.scene = scene_of(take);
+    actor.seconds = duration(actor.scene);
+    report["file"] = file.filename().string();
+    report["points"] = take.points.size();
+    report["seconds"] = actor.seconds;
+    return actor;
+}
+
+}  // namespace
+
 Actor load_actor(const fs::path& file, const fs::path& take, Report& report) {
+    if (is_take(file)) return captured(file, report);
     Actor actor;
     actor.name = file.stem().string();
     const Mesh mesh = read_mesh(file);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "mien/colour.hpp"
 #include "mien/mesh.hpp"
 #include "mien/picture.hpp"
 #include "mien/render/camera.hpp"
