@@ -24,15 +24,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void take_part(Actor& actor, const fs::path& file, const fs::path& take, Report& report) {
-    RigFile read = read_rig(file);
-    actor.rig = std::move(read.rig);
-    if (take.empty()) return;
+void play(Actor& actor, const Mesh& mesh, const fs::path& take, Report& report) {
     const Take target = read_take(take);
     const TakeBinding binding = bind_take(*actor.rig, target);
     report["points_carried_by_the_skin"] = binding.missing;
     report["columns_not_used"] = binding.unused;
-    actor.take = complete({read.mesh, actor.rig->points}, target);
+    actor.take = complete({mesh, actor.rig->points}, target);
     actor.binding = bind_take(*actor.rig, actor.take);
     actor.seconds = actor.take.times.empty() ? 0 : actor.take.times.back();
 }
@@ -73,25 +70,31 @@ Actor captured(const fs::path& file, Report& report) {
 
 }  // namespace
 
-Actor load_actor(const fs::path& file, const fs::path& take, Report& report) {
-    if (is_take(file)) return captured(file, report);
+Actor actor_of(const std::string& name, const Mesh& mesh, std::optional<Rig> rig) {
     Actor actor;
-    actor.name = file.stem().string();
-    const Mesh mesh = read_mesh(file);
+    actor.name = name;
+    actor.rig = std::move(rig);
     if (mesh.gltf.empty()) {
         MeshScene plain = scene_of(mesh);
         actor.scene = std::move(plain.scene);
         actor.vertices = std::move(plain.vertices);
     } else {
-        actor.scene = read_scene(file);
-        actor.seconds = duration(actor.scene);
+        actor.scene = parse_scene(mesh.gltf);
+        actor.seconds = actor.rig ? 0 : duration(actor.scene);
     }
-    if (is_rig(mesh))
-        take_part(actor, file, take, report);
-    else if (!take.empty())
+    dress(actor.scene, movement(actor));
+    return actor;
+}
+
+Actor load_actor(const fs::path& file, const fs::path& take, Report& report) {
+    if (is_take(file)) return captured(file, report);
+    const Mesh mesh = read_mesh(file);
+    const bool rigged = is_rig(mesh);
+    if (!rigged && !take.empty())
         throw Error(fmt::format("{}: expected a rig file to play a take on, as mien rig writes it; found another file",
                                 file.string()));
-    dress(actor.scene, movement(actor));
+    Actor actor = actor_of(file.stem().string(), mesh, rigged ? std::optional(read_rig(file).rig) : std::nullopt);
+    if (!take.empty()) play(actor, mesh, take, report);
     report["file"] = file.filename().string();
     report["vertices"] = vertex_count(mesh);
     report["seconds"] = actor.seconds;

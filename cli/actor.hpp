@@ -39,6 +39,9 @@ struct Actor {
 /// rig's own points. Throws Error naming the file.
 Actor load_actor(const std::filesystem::path& file, const std::filesystem::path& take, Report& report);
 
+/// The same from a head in memory; with a rig its points move it.
+Actor actor_of(const std::string& name, const Mesh& mesh, std::optional<Rig> rig = {});
+
 ModelId upload(Renderer& renderer, const Actor& actor);
 
 /// Poses the actor's model as it is at a time.

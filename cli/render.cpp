@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the mien authors
 
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
@@ -48,22 +47,6 @@ std::string check_extension(const std::string& name) {
     const std::string extension = fs::path(name).extension().string();
     if (extension.empty() || extension == ".png" || extension == ".mp4" || extension == ".webm") return {};
     return "expected .png, .mp4, .webm, or a folder name without extension for .png frames, found " + name;
-}
-
-struct Size {
-    std::uint32_t width = 0, height = 0;
-};
-
-Size size_of(const std::string& text, Size wanted) {
-    if (text.empty()) return wanted;
-    Size size;
-    const char* end = text.data() + text.size();
-    const auto [x, first] = std::from_chars(text.data(), end, size.width);
-    const bool crossed = first == std::errc() && x != end && *x == 'x';
-    const auto [last, second] = crossed ? std::from_chars(x + 1, end, size.height) : std::from_chars_result{x, first};
-    if (!crossed || second != std::errc() || last != end || size.width == 0 || size.height == 0)
-        throw Error(fmt::format("--size: expected width x height such as 640x480, found {}", text));
-    return size;
 }
 
 Size size_for(const Render& flags, Form form) {
@@ -163,8 +146,7 @@ void render(Call& call, const Render& flags) {
     std::vector<fs::path> inputs{flags.input, flags.take, flags.paint.truth};
     inputs.insert(inputs.end(), flags.compare.begin(), flags.compare.end());
     check_output(flags.output, inputs, call.flags);
-    const Size size = size_for(flags, form);
-    Stage stage(look_for(flags, form), flags.paint, size.width, size.height);
+    Stage stage(look_for(flags, form), flags.paint, size_for(flags, form));
     stage.enter(load_actor(flags.input, flags.take, call.report["drawn"]));
     for (const fs::path& other : flags.compare) {
         Report about;

@@ -5,8 +5,11 @@
 
 #include "inputs.hpp"
 #include "outputs.hpp"
+#include "rig_picture.hpp"
 
 #include "mien/io/gltf.hpp"
+#include "mien/io/png.hpp"
+#include "mien/io/write.hpp"
 
 namespace mien::cli {
 
@@ -15,14 +18,21 @@ namespace {
 struct MakeRig {
     FaceFlags face;
     OutputFlags output;
+    std::filesystem::path picture;
 };
 
 void rig(Call& call, const MakeRig& flags) {
     check_output(flags.output.output, {flags.face.head, flags.face.points}, call.flags);
+    check_output(flags.picture, {flags.face.head, flags.face.points, flags.output.output}, call.flags);
     const Face face = load_face(flags.face, call.report);
     const Rig rig = bind_rig(face, flags.face, call.report);
     const Skin skin = skin_for(call, flags.output, face.mesh, rig, Take{});
     write_output(call, flags.output.output, format_rig(face.mesh, rig, skin));
+    if (flags.picture.empty() || call.flags.dry_run) return;
+    WriteOptions options;
+    options.overwrite = call.flags.force;
+    write_file(flags.picture, format_png(rig_picture(flags.face.head.stem().string(), face.mesh, rig)), options);
+    call.report["picture"] = flags.picture.string();
 }
 
 }  // namespace
@@ -35,6 +45,7 @@ void add_rig(CLI::App& app, Call& call) {
     add_face_flags(*verb, flags->face);
     verb->add_option("-o,--output", flags->output.output, "the rig file to write (.glb)")->required();
     add_skin_flags(*verb, flags->output);
+    verb->add_option("--picture", flags->picture, "also draw the points and their influence as a sheet (.png)");
 }
 
 }  // namespace mien::cli

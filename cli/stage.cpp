@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -67,6 +68,18 @@ Picture with_points(Picture picture, const std::vector<NamedPlace>& places, cons
 
 }  // namespace
 
+Size size_of(const std::string& text, Size wanted) {
+    if (text.empty()) return wanted;
+    Size size;
+    const char* end = text.data() + text.size();
+    const auto [x, first] = std::from_chars(text.data(), end, size.width);
+    const bool crossed = first == std::errc() && x != end && *x == 'x';
+    const auto [last, second] = crossed ? std::from_chars(x + 1, end, size.height) : std::from_chars_result{x, first};
+    if (!crossed || second != std::errc() || last != end || size.width == 0 || size.height == 0)
+        throw Error(fmt::format("--size: expected width x height such as 640x480, found {}", text));
+    return size;
+}
+
 void add_look_flags(CLI::App& verb, LookFlags& flags) {
     verb.add_option("--size", flags.size, "of a picture in pixels, such as 640x480");
     verb.add_option("--view", flags.view, "where the camera stands")
@@ -83,14 +96,14 @@ void add_look_flags(CLI::App& verb, LookFlags& flags) {
     verb.add_flag("--software", flags.software, "draw on the processor even where there is a graphics card");
 }
 
-Stage::Stage(const LookFlags& look, const PaintFlags& paint, std::uint32_t width, std::uint32_t height)
-    : flags_(look), paint_(paint), width_(width), height_(height), renderer_(RendererOptions{look.software}) {}
+Stage::Stage(const LookFlags& look, const PaintFlags& paint, Size size)
+    : flags_(look), paint_(paint), size_(size), renderer_(RendererOptions{look.software}) {}
 
 Camera Stage::camera(const Actor& actor, ModelId model) const {
     const Box box = renderer_.rest_box(model);
-    if (flags_.close_up.empty()) return frame(box, flags_.view, width_, height_);
+    if (flags_.close_up.empty()) return frame(box, flags_.view, size_.width, size_.height);
     const Box near = around(close_up(flags_.close_up), points_at(actor, 0), box.high.y - box.low.y, actor.name);
-    return frame(near, flags_.view, width_, height_, 0);
+    return frame(near, flags_.view, size_.width, size_.height, 0);
 }
 
 void Stage::enter(Actor actor) {
@@ -99,6 +112,20 @@ void Stage::enter(Actor actor) {
     models_.push_back(model);
     actors_.push_back(std::move(actor));
     if (!paint_.weights.empty()) paint_weights(actors_.size() - 1);
+}
+
+void Stage::look(const LookFlags& flags) {
+    flags_ = flags;
+    for (std::size_t i = 0; i < actors_.size(); ++i) cameras_[i] = camera(actors_[i], models_[i]);
+}
+
+void Stage::show_weights(const std::string& point) {
+    paint_.weights = point;
+    for (std::size_t i = 0; i < actors_.size(); ++i)
+        if (point.empty())
+            renderer_.paint(models_[i], {});
+        else
+            paint_weights(i);
 }
 
 void Stage::set_truth(Actor actor) {

@@ -20,6 +20,12 @@
 
 namespace mien::cli {
 
+/// The size in pixels that a text such as "640x480" gives; `wanted` for an empty one. Throws Error.
+struct Size {
+    std::uint32_t width = 0, height = 0;
+};
+Size size_of(const std::string& text, Size wanted);
+
 /// Flags of verbs that draw: how a head is looked at.
 struct LookFlags {
     std::string size;  ///< "640x480"; empty: as the verb likes
@@ -43,7 +49,7 @@ struct PaintFlags {
 /// Actors before a camera, each drawn alone.
 class Stage {
 public:
-    Stage(const LookFlags& look, const PaintFlags& paint, std::uint32_t width, std::uint32_t height);
+    Stage(const LookFlags& look, const PaintFlags& paint, Size size);
 
     /// Throws Error if what the flags ask for is not on the actor: a point, a rig.
     void enter(Actor actor);
@@ -56,6 +62,11 @@ public:
     [[nodiscard]] std::string device() const { return renderer_.device(); }
     [[nodiscard]] std::optional<Legend> legend() const;
 
+    /// Looks at all actors as these flags say from now on.
+    void look(const LookFlags& flags);
+    /// Paints the weights of this feature point on all actors from now on; an empty name: their materials again.
+    void show_weights(const std::string& point);
+
     std::vector<double> key_times(std::size_t count);
     Picture picture(std::size_t actor, double time);
 
@@ -66,7 +77,7 @@ private:
 
     LookFlags flags_;
     PaintFlags paint_;
-    std::uint32_t width_, height_;
+    Size size_;
     Renderer renderer_;
     std::vector<Actor> actors_;
     std::vector<ModelId> models_;
