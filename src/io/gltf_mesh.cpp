@@ -106,6 +106,7 @@ Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     if (!out.any_uvs) out.mesh.corner_uvs.clear();
     out.mesh.unit.assign(1, 'm');
     out.mesh.gltf = format_glb(document);
+    out.mesh.left_out = document.left_out;
     return std::move(out.mesh);
 }
 

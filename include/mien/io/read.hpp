@@ -16,7 +16,7 @@ namespace mien {
 
 /// Reads a head by its extension: .glb .gltf .obj .off .ply. Throws Error whose sentence starts with the file's name;
 /// Kind::access when the file cannot be read. A mesh whose faces all lie on a point or a line is refused. A .gltf may
-/// name files in its own folder and below, nothing else.
+/// name files in its own folder and below, nothing else; a picture that is not there is named in `Mesh::left_out`.
 Mesh read_mesh(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv.
