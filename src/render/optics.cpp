@@ -147,12 +147,17 @@ std::vector<Pass> passes_of(const Look& look, const Camera& camera, std::span<co
                           4.0 / static_cast<double>(dome) * light,
                           {}});
     }
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        passes[i].light = static_cast<double>(passes.size()) * passes[i].light;
-        const auto [u, v] = place_in_square(i);
-        passes[i].shift = {u - 0.5, v - 0.5};
-    }
-    return passes;
+    // The picture is shifted to few places, each with its share of every lamp; passes of one place follow each other.
+    const std::size_t shifts = std::clamp<std::size_t>(look.passes / 4, 4, 16);
+    std::vector<Pass> ordered;
+    for (std::size_t shift = 0; shift < shifts; ++shift)
+        for (std::size_t i = shift; i < passes.size(); i += shifts) {
+            ordered.push_back(passes[i]);
+            ordered.back().light = static_cast<double>(passes.size()) * passes[i].light;
+            const auto [u, v] = place_in_square(shift);
+            ordered.back().shift = {u - 0.5, v - 0.5};
+        }
+    return ordered;
 }
 
 Ball shadow_window(const Camera& camera, const Ball& all) {
