@@ -115,7 +115,6 @@ Painter::Painter()
 
 void Painter::cover(GlProgram& program) {
     program.use();
-    glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(nothing_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -265,6 +264,7 @@ void Painter::draw_draft(const Shot& shot) {
         background_.use();
         background_.set("top", shot.look.top);
         background_.set("bottom", shot.look.bottom);
+        glDisable(GL_DEPTH_TEST);
         cover(background_);
     }
     const Matrix view = view_matrix(shot.camera, shot.all, {});
@@ -355,7 +355,12 @@ void Painter::draw_pass(const Shot& shot, const Pass& pass, const Matrix& view, 
     set_room(deferred_, shot.camera, shot.look);
     set_rays(deferred_, shot.camera, pass.shift);
     deferred_.set("path", static_cast<float>(scatter_path(*shot.models.front())));
+    // The covering triangle lies at the far end: only where something is nearer, pixels are worked out.
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_FALSE);
     cover(deferred_);
+    glDepthMask(GL_TRUE);
     draw_parts(shot, shot.special, full_, view);
     draw_clear(shot, full_, view);
     if (shot.look.wire) draw_wire(shot, view);
@@ -377,10 +382,12 @@ void Painter::draw_full(const Shot& shot) {
         bind_texture(0, targets_->pass_picture());
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_ONE);
+        glDisable(GL_DEPTH_TEST);
         cover(add_);
         glDisable(GL_BLEND);
     }
     targets_->begin_developing();
+    glDisable(GL_DEPTH_TEST);
     bind_texture(0, targets_->sum_picture());
     develop_.use();
     develop_.set("share", 1.0F / static_cast<float>(passes.size()));

@@ -275,7 +275,6 @@ out vec4 shown;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 scattered = texelFetch(scatter_facts, pixel, 0);
-    if (scattered.a == 0.0) discard;
     vec4 base = texelFetch(base_facts, pixel, 0), turned = texelFetch(normal_facts, pixel, 0);
     vec4 depth = texelFetch(depth_facts, pixel, 0);
     vec3 to = ray + gl_FragCoord.x * ray_x + gl_FragCoord.y * ray_y;
@@ -288,7 +287,7 @@ void main() {
     s.alpha = 1.0;
     s.wetness = 0.0;
     s.glow = vec3(0.0);
-    shown = vec4(lit(s, normalize(-to), camera + depth.x * to), 1.0);
+    shown = scattered.a > 0.0 ? vec4(lit(s, normalize(-to), camera + depth.x * to), 1.0) : vec4(0.0);
 }
 )";
 
