@@ -88,7 +88,7 @@ constexpr std::array<Dress, 10> wardrobe{{
 
 const Dress& dress_for(const Surface& surface, const Material& material, bool on_eyeball) {
     const auto fits = [&](const Dress& dress) {
-        return has_word(surface.name, dress.word) || has_word(material.name, dress.word);
+        return dress.word.empty() || has_word(surface.name, dress.word) || has_word(material.name, dress.word);
     };
     if (on_eyeball) return wardrobe[wardrobe.size() - 2];
     return *std::find_if(wardrobe.begin(), wardrobe.end(), fits);

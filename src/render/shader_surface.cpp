@@ -65,8 +65,8 @@ mat2x3 directions(vec2 at, vec3 n) {
     vec2 ux = dFdx(at), uy = dFdy(at);
     vec3 a = cross(py, n), b = cross(n, px);
     vec3 t = a * ux.x + b * uy.x, s = a * ux.y + b * uy.y;
-    float size = max(dot(t, t), dot(s, s));
-    return mat2x3(t, s) * (size > 0.0 ? inversesqrt(size) : 0.0);
+    float size = max(dot(t, t), dot(s, s)), side = dot(cross(px, py), n) < 0.0 ? -1.0 : 1.0;
+    return mat2x3(t, s) * (size > 0.0 ? side * inversesqrt(size) : 0.0);
 }
 
 float noise(vec2 p) {
@@ -141,14 +141,14 @@ Surface surface() {
 )";
 
 const char* const lobes = R"(
-// Distribution and masking of one lobe towards a lamp, without Fresnel; times pi, as light is counted.
+// Distribution and masking of one lobe towards the nearest place on a lamp, without Fresnel; times pi, as light is
+// counted. A lobe narrower than the lamp mirrors all of it, which `widened` makes up for.
 float lobe(float alpha, float widened, float nh, float nl, float nv) {
-    float a2 = widened * widened;
+    float a2 = alpha * alpha;
     float d = nh * nh * (a2 - 1.0) + 1.0;
-    float energy = alpha / widened;
     float k = 0.5 * alpha;
     float mask = 0.25 / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
-    return energy * energy * a2 / (d * d) * mask;
+    return a2 * a2 / (d * d * widened * widened) * mask;
 }
 
 // What a lamp's mirror image adds.
@@ -221,15 +221,17 @@ vec3 developed(vec3 c) { return to_srgb(film(c)); }
 const char* const full_light = R"(
 // How much of the light arrives, per channel: all, none, or what came through.
 vec3 arriving(Surface s, vec3 place) {
-    vec4 at = shadow * vec4(place + s.n * (1.5 * shadow_size.x), 1.0);
+    vec4 at = shadow * vec4(place + s.n * max(1.5 * shadow_size.x, 0.12 * path), 1.0);
     float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))) + grain);
-    vec2 arm = 2.2 * shadow_size.z * vec2(cos(turn), sin(turn));
+    // About a millimetre, so that the few places on a lamp leave no steps.
+    float reach_of_arm = clamp(0.3 * path / shadow_size.x, 2.0, 9.0);
+    vec2 arm = reach_of_arm * shadow_size.z * vec2(cos(turn), sin(turn));
     vec3 reach = max(path * s.scatter, 1e-6);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         float thick = (at.z - texture(shadow_map, at.xy + arm).r) * shadow_size.y;
-        sum += thick < shadow_size.x ? vec3(1.0) : exp(-thick / reach);
-        arm = vec2(-arm.y, arm.x) * 0.86;
+        sum += thick < max(shadow_size.x, 0.06 * path) ? vec3(1.0) : exp(-thick / reach);
+        arm = vec2(-arm.y, arm.x) * 0.8;
     }
     return 0.25 * sum;
 }
