@@ -15,6 +15,7 @@
 #include "mien/face.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/read.hpp"
+#include "mien/io/scene.hpp"
 #include "mien/render/dress.hpp"
 #include "mien/render/take_scene.hpp"
 
@@ -74,14 +75,10 @@ Actor actor_of(const std::string& name, const Mesh& mesh, std::optional<Rig> rig
     Actor actor;
     actor.name = name;
     actor.rig = std::move(rig);
-    if (mesh.gltf.empty()) {
-        MeshScene plain = scene_of(mesh);
-        actor.scene = std::move(plain.scene);
-        actor.vertices = std::move(plain.vertices);
-    } else {
-        actor.scene = parse_scene(mesh.gltf);
-        actor.seconds = actor.rig ? 0 : duration(actor.scene);
-    }
+    actor.scene = scene_of(mesh);
+    for (const Surface& surface : actor.scene.surfaces)
+        actor.vertices.insert(actor.vertices.end(), surface.mesh_vertices.begin(), surface.mesh_vertices.end());
+    if (!actor.rig) actor.seconds = duration(actor.scene);
     dress(actor.scene, movement(actor));
     return actor;
 }

@@ -66,5 +66,16 @@ TEST(HeatColour, stops_at_its_ends_and_shows_what_is_no_number_in_grey) {
     EXPECT_EQ(colour_at(ColourScale::heat, std::nan("")), (Colour{128, 128, 128}));
 }
 
+TEST(ColourScale, OppositeIsLightestInTheMiddleAndDarkerTowardsBothEnds) {
+    for (int i = 1; i <= 32; ++i)
+        for (const double side : {-1.0, 1.0})
+            EXPECT_GT(oklab(colour_at(ColourScale::opposite, 0.5 + side * (i - 1) / 64)).lightness,
+                      oklab(colour_at(ColourScale::opposite, 0.5 + side * i / 64)).lightness);
+    const Colour middle = colour_at(ColourScale::opposite, 0.5);
+    EXPECT_EQ(middle.r, middle.b);
+    EXPECT_GT(colour_at(ColourScale::opposite, 0).b, colour_at(ColourScale::opposite, 0).r);
+    EXPECT_LT(colour_at(ColourScale::opposite, 1).b, colour_at(ColourScale::opposite, 1).r);
+}
+
 }  // namespace
 }  // namespace mien

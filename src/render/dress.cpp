@@ -8,46 +8,11 @@
 #include <map>
 #include <optional>
 #include <string_view>
-#include <tuple>
+#include <utility>
 
 namespace mien {
 
 namespace {
-
-// A part of the mesh on its way to a surface.
-struct Growing {
-    const Mesh& mesh;
-    Surface surface;
-    std::vector<std::uint32_t> vertices;
-    std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;  // by vertex and texture coordinate
-};
-
-std::uint32_t vertex_of(Growing& growing, std::uint32_t corner) {
-    const std::uint32_t vertex = growing.mesh.face_vertices[corner];
-    const Vec2f uv = growing.mesh.corner_uvs.empty() ? Vec2f{} : growing.mesh.corner_uvs[corner];
-    const auto [found, is_new] =
-        growing.known.try_emplace({vertex, uv.x, uv.y}, static_cast<std::uint32_t>(growing.vertices.size()));
-    if (is_new) {
-        growing.vertices.push_back(vertex);
-        growing.surface.positions.push_back(growing.mesh.positions[vertex]);
-        if (!growing.mesh.corner_uvs.empty()) growing.surface.uvs.push_back(uv);
-    }
-    return found->second;
-}
-
-// Four corners are cut along the shorter diagonal, more as a fan.
-void add_face(Growing& growing, std::size_t f) {
-    std::vector<std::uint32_t> corners;
-    for (std::uint32_t c = growing.mesh.face_starts[f]; c < growing.mesh.face_starts[f + 1]; ++c)
-        corners.push_back(vertex_of(growing, c));
-    const auto apart = [&](std::size_t a, std::size_t b) {
-        return distance(growing.surface.positions[corners[a]], growing.surface.positions[corners[b]]);
-    };
-    if (corners.size() == 4 && apart(1, 3) < apart(0, 2))
-        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-    for (std::size_t k = 2; k < corners.size(); ++k)
-        growing.surface.triangles.insert(growing.surface.triangles.end(), {corners[0], corners[k - 1], corners[k]});
-}
 
 bool is_white(const Material& m) {
     return m.colour == std::array<float, 4>{1, 1, 1, 1} && !m.colour_picture;
@@ -88,7 +53,7 @@ constexpr std::array<Dress, 10> wardrobe{{
 
 const Dress& dress_for(const Surface& surface, const Material& material, bool on_eyeball) {
     const auto fits = [&](const Dress& dress) {
-        return has_word(surface.name, dress.word) || has_word(material.name, dress.word);
+        return dress.word.empty() || has_word(surface.name, dress.word) || has_word(material.name, dress.word);
     };
     if (on_eyeball) return wardrobe[wardrobe.size() - 2];
     return *std::find_if(wardrobe.begin(), wardrobe.end(), fits);
@@ -138,24 +103,6 @@ bool is_called_skin(const Material& m) {
 }
 
 }  // namespace
-
-MeshScene scene_of(const Mesh& mesh) {
-    MeshScene made;
-    made.scene.materials.emplace_back();
-    made.scene.nodes.emplace_back();
-    std::vector<Part> parts = mesh.parts;
-    if (parts.empty()) parts.push_back({"", 0, 0, 0, 0, 0, static_cast<std::uint32_t>(face_count(mesh))});
-    for (const Part& part : parts) {
-        Growing growing{mesh, {}, {}, {}};
-        growing.surface.name = part.name;
-        growing.surface.mesh = part.mesh;
-        growing.surface.primitive = part.primitive;
-        for (std::size_t f = part.first_face; f < part.first_face + part.face_count; ++f) add_face(growing, f);
-        made.vertices.insert(made.vertices.end(), growing.vertices.begin(), growing.vertices.end());
-        made.scene.surfaces.push_back(std::move(growing.surface));
-    }
-    return made;
-}
 
 void dress(Scene& scene, const Movement& movement) {
     const std::vector<Use> uses = uses_of(scene, movement);

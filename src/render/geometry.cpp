@@ -202,19 +202,17 @@ std::optional<std::uint32_t> only_material(const Geometry& geometry, const std::
     return worn.size() == 1 ? std::optional(*worn.begin()) : std::nullopt;
 }
 
-// An eyeball of a single plain material has no iris of its own: its vertices get their direction as seen from its
-// centre, so that one can be drawn.
+// An eyeball of a single material is wet. Without a picture it has no iris of its own: its vertices get their direction
+// as seen from its centre, so that one can be drawn.
 void add_eye(Geometry& geometry, const Scene& scene, const Movement& movement, const Eyeball& eyeball) {
     std::vector<bool> in_rig(vertex_count(*movement.rig), false), on_eyeball(geometry.positions.size(), false);
     for (const std::uint32_t v : eyeball.vertices) in_rig[v] = true;
     for (std::size_t v = 0; v < on_eyeball.size(); ++v) on_eyeball[v] = in_rig[source_of(movement, v)];
     const auto material = only_material(geometry, on_eyeball);
     if (!material) return;
-    if (scene.materials[*material].colour_picture) {
-        for (Piece& piece : geometry.pieces)
-            if (piece.material == *material && on_eyeball[piece.first_vertex]) piece.wet = true;
-        return;
-    }
+    for (Piece& piece : geometry.pieces)
+        if (piece.material == *material && piece.vertex_count > 0 && on_eyeball[piece.first_vertex]) piece.wet = true;
+    if (scene.materials[*material].colour_picture) return;
     Vec3 axis = eyeball.point ? movement.rig->points[*eyeball.point].position - eyeball.centre : Vec3{0, 0, 1};
     if (!(length(axis) > 0)) axis = {0, 0, 1};
     const Vec3 z = axis / length(axis);

@@ -32,7 +32,7 @@ struct Piece {
     std::uint32_t first_vertex = 0, vertex_count = 0;
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;
-    bool wet = false;  ///< an eyeball with a picture: it shines under its tears
+    bool wet = false;  ///< an eyeball: it shines under its tears
 };
 
 /// Everything of a model that goes to the device once.

@@ -65,9 +65,9 @@ Vec3 colour(const Rgb& c) {
 
 std::vector<Light> portrait() {
     return {
-        {{-0.62, 0.52, 0.75}, {2.05F, 1.92F, 1.76F}, 14},  // key
-        {{0.95, 0.12, 0.55}, {0.42F, 0.47F, 0.56F}, 22},   // fill
-        {{0.60, 0.62, -0.85}, {1.9F, 1.95F, 2.1F}, 12},    // rim
+        {{-0.66, 0.52, 0.70}, {1.30F, 1.21F, 1.10F}, 13},  // key
+        {{0.95, 0.10, 0.60}, {0.20F, 0.23F, 0.28F}, 22},   // fill
+        {{0.62, 0.55, -0.80}, {1.25F, 1.28F, 1.36F}, 14},  // rim
     };
 }
 
@@ -147,12 +147,17 @@ std::vector<Pass> passes_of(const Look& look, const Camera& camera, std::span<co
                           4.0 / static_cast<double>(dome) * light,
                           {}});
     }
-    for (std::size_t i = 0; i < passes.size(); ++i) {
-        passes[i].light = static_cast<double>(passes.size()) * passes[i].light;
-        const auto [u, v] = place_in_square(i);
-        passes[i].shift = {u - 0.5, v - 0.5};
-    }
-    return passes;
+    // The picture is shifted to few places, each with its share of every lamp; passes of one place follow each other.
+    const std::size_t shifts = std::clamp<std::size_t>(look.passes / 4, 4, 16);
+    std::vector<Pass> ordered;
+    for (std::size_t shift = 0; shift < shifts; ++shift)
+        for (std::size_t i = shift; i < passes.size(); i += shifts) {
+            ordered.push_back(passes[i]);
+            ordered.back().light = static_cast<double>(passes.size()) * passes[i].light;
+            const auto [u, v] = place_in_square(shift);
+            ordered.back().shift = {u - 0.5, v - 0.5};
+        }
+    return ordered;
 }
 
 Ball shadow_window(const Camera& camera, const Ball& all) {

@@ -14,8 +14,9 @@ namespace mien {
 
 namespace {
 
-constexpr int scale_unit = 4, shadow_unit = 5;
-constexpr std::size_t most_lamps = 8;
+constexpr int scale_unit = 4, shadow_unit = 5, facts_unit = 6;
+// From so many triangles on, a surface's light in a draft is worked out at its vertices.
+constexpr std::uint32_t many_triangles = 2000;
 
 std::array<float, 3> numbers(const Vec3& v) {
     const Vec3f f = to_float(v);
@@ -71,22 +72,28 @@ void divide_by_alpha(Picture& picture) {
 
 }  // namespace
 
+struct Painter::Part {
+    const Instance* model;
+    const Piece* piece;
+    double depth;
+};
+
 struct Painter::Shot {
-    struct Part {
-        const Instance* model;
-        const Piece* piece;
-        double depth;
-    };
     std::span<const Instance* const> models;
     const Camera& camera;
     const Look& look;
     Ball all;  // round everything, from the camera's target
     std::vector<Lamp> lamps;
-    std::vector<Part> solid, clear;  // `clear`: from the farthest to the nearest
+    std::vector<Part> plain, small;  // solid; `small`: of few triangles and no less plain
+    std::vector<Part> special;       // solid, with light of its own or under tears
+    std::vector<Part> clear;         // see-through, from the farthest to the nearest
 };
 
 Painter::Painter()
-    : draft_(shaders::surface_vertex(), shaders::surface_fragment(false)),
+    : quick_(shaders::quick_lit_vertex(), shaders::quick_lit_fragment()),
+      draft_(shaders::surface_vertex(), shaders::surface_fragment(false)),
+      facts_(shaders::surface_vertex(), shaders::facts_fragment()),
+      deferred_(shaders::cover_vertex, shaders::deferred_fragment()),
       full_(shaders::surface_vertex(), shaders::surface_fragment(true)),
       shadow_(shaders::shadow_vertex, shaders::shadow_fragment),
       wire_(shaders::wire_vertex, shaders::wire_fragment),
@@ -97,25 +104,25 @@ Painter::Painter()
       heat_(scale_picture(ColourScale::heat)),
       opposite_(scale_picture(ColourScale::opposite)),
       nothing_(GlName::Kind::vertex_array) {
-    for (GlProgram* program : {&draft_, &full_}) {
+    for (GlProgram* program : {&quick_, &draft_, &facts_, &deferred_, &full_}) {
         program->use();
         int unit = 0;
-        for (const char* name : {"colour_picture", "roughness_picture", "normal_picture", "emission_picture", "scale"})
+        for (const char* name : {"colour_picture", "roughness_picture", "normal_picture", "emission_picture", "scale",
+                                 "shadow_map", "base_facts", "normal_facts", "scatter_facts", "depth_facts"})
             program->set(name, unit++);
-        program->set("shadow_map", shadow_unit);
     }
 }
 
 void Painter::cover(GlProgram& program) {
     program.use();
-    glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(nothing_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Painter::draw_piece(GlProgram& program, const Instance& model, const Piece& piece, int alpha_mode) {
-    const StillModel& still = *model.still;
+namespace {
+
+void set_material(GlProgram& program, const StillModel& still, const Piece& piece) {
     const Material& material = still.materials[piece.material];
     program.set("colour", material.colour);
     program.set("metallic", material.metallic);
@@ -124,8 +131,8 @@ void Painter::draw_piece(GlProgram& program, const Instance& model, const Piece&
     program.set("cutoff", material.alpha_cutoff);
     program.set("emission", material.emission);
     program.set("scatter", material.scatter);
-    program.set("alpha_mode", alpha_mode);
     program.set("unlit", material.unlit ? 1 : 0);
+    program.set("double_sided", material.double_sided ? 1 : 0);
     program.set("wet", piece.wet ? 1 : 0);
     std::array<float, 4> there{};
     for (std::size_t use = 0; use < there.size(); ++use) {
@@ -134,7 +141,10 @@ void Painter::draw_piece(GlProgram& program, const Instance& model, const Piece&
         there[use] = picture ? 1.0F : 0.0F;
     }
     program.set("pictures", there);
-    if (material.double_sided)
+}
+
+void draw_triangles(const Instance& model, const Piece& piece) {
+    if (model.still->materials[piece.material].double_sided)
         glDisable(GL_CULL_FACE);
     else
         glEnable(GL_CULL_FACE);
@@ -144,48 +154,75 @@ void Painter::draw_piece(GlProgram& program, const Instance& model, const Piece&
                    reinterpret_cast<const void*>(piece.first_index * sizeof(std::uint32_t)));
 }
 
-void Painter::draw_everything(const Shot& shot, GlProgram& program, const Matrix& view) {
+// How far red light goes under skin, in the scene's unit. A head of unknown size is taken to be 240 mm high.
+double scatter_path(const Instance& model) {
+    const double height = model.rest.high.y - model.rest.low.y;
+    const double millimetre = model.still->millimetre > 0 ? model.still->millimetre : height / 240;
+    return 3.7 * millimetre * length(model.place.columns[1]);
+}
+
+std::array<float, 3> numbers(const Rgb& colour, double times) {
+    const auto t = static_cast<float>(times);
+    return {t * colour[0], t * colour[1], t * colour[2]};
+}
+
+void set_room(GlProgram& program, const Camera& camera, const Look& look) {
+    program.set("camera", numbers(camera.eye - camera.target));
+    program.set("forwards", numbers(-axes_of(camera).back));
+    program.set("sky", numbers(look.sky, look.exposure));
+    program.set("ground", numbers(look.ground, look.exposure));
+}
+
+}  // namespace
+
+void Painter::take_up(const Shot& shot, const Instance& model, GlProgram& program) {
+    program.set("place", place_matrix(model.place, shot.camera.target));
+    program.set("turn", turn_matrix(model.place));
+    program.set("path", static_cast<float>(scatter_path(model)));
+    program.set("painted", model.painted ? 1 : 0);
+    program.set("scale_ends", std::array<float, 2>{model.low, model.high});
+    bind_texture(scale_unit, (model.scale == ColourScale::heat ? heat_ : opposite_).name());
+    glBindVertexArray(model.array.name());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, model.still->indices.name());
+}
+
+void Painter::draw_parts(const Shot& shot, std::span<const Part> parts, GlProgram& program, const Matrix& view) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     program.use();
     program.set("view", view);
-    program.set("camera", numbers(shot.camera.eye - shot.camera.target));
-    program.set("sky", numbers(shot.look.exposure * Vec3{shot.look.sky[0], shot.look.sky[1], shot.look.sky[2]}));
-    program.set("ground",
-                numbers(shot.look.exposure * Vec3{shot.look.ground[0], shot.look.ground[1], shot.look.ground[2]}));
+    set_room(program, shot.camera, shot.look);
     const Instance* current = nullptr;
-    const auto take_up = [&](const Instance& model) {
-        if (current == &model) return;
-        current = &model;
-        program.set("place", place_matrix(model.place, shot.camera.target));
-        program.set("turn", turn_matrix(model.place));
-        const double height = model.rest.high.y - model.rest.low.y;
-        const double size = length(model.place.columns[1]);
-        program.set("path", static_cast<float>(3.7 * size *
-                                               (model.still->millimetre > 0 ? model.still->millimetre : height / 240)));
-        program.set("painted", model.painted ? 1 : 0);
-        program.set("scale_ends", std::array<float, 2>{model.low, model.high});
-        bind_texture(scale_unit, (model.scale == ColourScale::heat ? heat_ : opposite_).name());
-        glBindVertexArray(model.array.name());
-        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, model.still->indices.name());
-    };
-    for (const Shot::Part& part : shot.solid) {
-        take_up(*part.model);
-        const bool mask = part.model->still->materials[part.piece->material].alpha == Material::Alpha::mask;
-        draw_piece(program, *part.model, *part.piece, mask ? 1 : 0);
+    for (const Part& part : parts) {
+        if (part.model != current) take_up(shot, *part.model, program);
+        current = part.model;
+        set_material(program, *current->still, *part.piece);
+        const bool mask = current->still->materials[part.piece->material].alpha == Material::Alpha::mask;
+        program.set("alpha_mode", mask ? 1 : 0);
+        draw_triangles(*current, *part.piece);
     }
-    for (const Shot::Part& part : shot.clear) {
-        take_up(*part.model);
-        draw_piece(program, *part.model, *part.piece, 3);
+}
+
+// First what covers fully, so that the rest cannot hide it.
+void Painter::draw_clear(const Shot& shot, GlProgram& program, const Matrix& view) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    program.use();
+    program.set("view", view);
+    set_room(program, shot.camera, shot.look);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    for (const Part& part : shot.clear) {
+        take_up(shot, *part.model, program);
+        set_material(program, *part.model->still, *part.piece);
+        program.set("alpha_mode", 3);
+        draw_triangles(*part.model, *part.piece);
+        program.set("alpha_mode", 2);
         glEnable(GL_BLEND);
-        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         glDepthMask(GL_FALSE);
-        draw_piece(program, *part.model, *part.piece, 2);
+        draw_triangles(*part.model, *part.piece);
         glDepthMask(GL_TRUE);
         glDisable(GL_BLEND);
     }
-    if (shot.look.wire) draw_wire(shot, view);
-    if (!shot.look.marks.empty()) draw_marks(shot, view);
 }
 
 void Painter::draw_wire(const Shot& shot, const Matrix& view) {
@@ -227,11 +264,20 @@ void Painter::draw_draft(const Shot& shot) {
         background_.use();
         background_.set("top", shot.look.top);
         background_.set("bottom", shot.look.bottom);
+        glDisable(GL_DEPTH_TEST);
         cover(background_);
     }
-    draft_.use();
-    set_lamps(draft_, shot.lamps);
-    draw_everything(shot, draft_, view_matrix(shot.camera, shot.all, {}));
+    const Matrix view = view_matrix(shot.camera, shot.all, {});
+    for (GlProgram* program : {&quick_, &draft_}) {
+        program->use();
+        set_lamps(*program, shot.lamps);
+    }
+    draw_parts(shot, shot.plain, quick_, view);
+    draw_parts(shot, shot.small, draft_, view);
+    draw_parts(shot, shot.special, draft_, view);
+    draw_clear(shot, draft_, view);
+    if (shot.look.wire) draw_wire(shot, view);
+    if (!shot.look.marks.empty()) draw_marks(shot, view);
     targets_->end_draft();
 }
 
@@ -263,37 +309,85 @@ void Painter::draw_shadows(const Shot& shot, const ShadowView& shadow) {
     }
 }
 
+void Painter::draw_facts(const Shot& shot, const Matrix& view) {
+    targets_->begin_facts();
+    draw_parts(shot, shot.plain, facts_, view);
+    draw_parts(shot, shot.small, facts_, view);
+}
+
+namespace {
+
+// Lines of sight through the pixels, as `view_matrix` puts them there.
+void set_rays(GlProgram& program, const Camera& camera, const std::array<double, 2>& shift) {
+    const CameraAxes axes = axes_of(camera);
+    const Vec3 x = 2 * axes.slope_x / camera.width * axes.right, y = -2 * axes.slope_y / camera.height * axes.up;
+    const double left = -0.5 * camera.width - shift[0], top = -0.5 * camera.height - shift[1];
+    program.set("ray", numbers(left * x + top * y - axes.back));
+    program.set("ray_x", numbers(x));
+    program.set("ray_y", numbers(y));
+}
+
+}  // namespace
+
+void Painter::draw_pass(const Shot& shot, const Pass& pass, const Matrix& view, std::size_t passes, float grain) {
+    const bool dome = pass.lamp < 0;
+    Lamp lamp = dome ? Lamp{pass.direction, {}, {}, {}} : shot.lamps[static_cast<std::size_t>(pass.lamp)];
+    lamp.light = pass.light;
+    // The room's reflection is shared out among the dome's passes.
+    const double times = dome ? static_cast<double>(passes) / (shot.look.passes / 2) : 0;
+    const std::array<Lamp, 2> lamps{lamp, Lamp{{}, {}, {}, Vec3{times, times, times}}};
+    const Ball window = shadow_window(shot.camera, shot.all);
+    const ShadowView shadow = shadow_view(pass.direction, window, shot.all, Targets::shadow_size, pass.shift);
+    draw_shadows(shot, shadow);
+    for (GlProgram* program : {&deferred_, &full_}) {
+        program->use();
+        set_lamps(*program, lamps);
+        program->set("dome", dome ? 1 : 0);
+        program->set("sample_at", numbers(pass.direction));
+        program->set("shadow", shadow.lookup);
+        program->set("shadow_size", numbers(Vec3{shadow.texel, shadow.depth, 1.0 / Targets::shadow_size}));
+        program->set("grain", grain);
+    }
+    bind_texture(shadow_unit, targets_->shadow_map());
+    targets_->begin_pass();
+    for (std::size_t i = 0; i < 4; ++i) bind_texture(facts_unit + static_cast<int>(i), targets_->fact(i));
+    deferred_.use();
+    set_room(deferred_, shot.camera, shot.look);
+    set_rays(deferred_, shot.camera, pass.shift);
+    deferred_.set("path", static_cast<float>(scatter_path(*shot.models.front())));
+    // The covering triangle lies at the far end: only where something is nearer, pixels are worked out.
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_FALSE);
+    cover(deferred_);
+    glDepthMask(GL_TRUE);
+    draw_parts(shot, shot.special, full_, view);
+    draw_clear(shot, full_, view);
+    if (shot.look.wire) draw_wire(shot, view);
+    if (!shot.look.marks.empty()) draw_marks(shot, view);
+}
+
 void Painter::draw_full(const Shot& shot) {
     const std::vector<Pass> passes = passes_of(shot.look, shot.camera, shot.lamps);
-    const Ball window = shadow_window(shot.camera, shot.all);
     targets_->begin_sum();
+    Matrix view{};
     for (std::size_t i = 0; i < passes.size(); ++i) {
-        const Pass& pass = passes[i];
-        const ShadowView shadow = shadow_view(pass.direction, window, shot.all, Targets::shadow_size, pass.shift);
-        draw_shadows(shot, shadow);
-        targets_->begin_pass();
-        full_.use();
-        const bool dome = pass.lamp < 0;
-        Lamp lamp = dome ? Lamp{pass.direction, {}, {}, {}} : shot.lamps[static_cast<std::size_t>(pass.lamp)];
-        lamp.light = pass.light;
-        const double dome_passes = static_cast<double>(shot.look.passes / 2);
-        const double times = dome ? static_cast<double>(passes.size()) / dome_passes : 0;
-        set_lamps(full_, std::array<Lamp, 2>{lamp, Lamp{{}, {}, {}, Vec3{times, times, times}}});
-        full_.set("dome", dome ? 1 : 0);
-        full_.set("sample_at", numbers(pass.direction));
-        full_.set("shadow", shadow.lookup);
-        full_.set("shadow_size", numbers(Vec3{shadow.texel, shadow.depth, 1.0 / Targets::shadow_size}));
-        full_.set("grain", static_cast<float>(i) * 0.618034F);
-        bind_texture(shadow_unit, targets_->shadow_map());
-        draw_everything(shot, full_, view_matrix(shot.camera, shot.all, pass.shift));
+        if (i == 0 || passes[i].shift != passes[i - 1].shift) {
+            view = view_matrix(shot.camera, shot.all, passes[i].shift);
+            draw_facts(shot, view);
+        }
+        draw_pass(shot, passes[i], view, passes.size(), static_cast<float>(i) * 0.618034F);
         targets_->begin_adding();
+        add_.use();
+        bind_texture(0, targets_->pass_picture());
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_ONE);
-        bind_texture(0, targets_->pass_picture());
+        glDisable(GL_DEPTH_TEST);
         cover(add_);
         glDisable(GL_BLEND);
     }
     targets_->begin_developing();
+    glDisable(GL_DEPTH_TEST);
     bind_texture(0, targets_->sum_picture());
     develop_.use();
     develop_.set("share", 1.0F / static_cast<float>(passes.size()));
@@ -303,19 +397,36 @@ void Painter::draw_full(const Shot& shot) {
     cover(develop_);
 }
 
+namespace {
+
+bool is_special(const Instance& model, const Piece& piece) {
+    const Material& material = model.still->materials[piece.material];
+    return piece.wet || material.unlit || material.emission != std::array<float, 3>{};
+}
+
+bool is_small(const Instance& model, const Piece& piece) {
+    const auto& pictures = model.still->pictures_of[piece.material];
+    return piece.index_count < 3 * many_triangles || pictures[1] || pictures[2];
+}
+
+}  // namespace
+
 Picture Painter::draw(std::span<const Instance* const> models, const Camera& camera, const Look& look) {
-    Shot shot{models, camera, look, ball_of(*models.front(), camera.target), lamps_of(look, camera), {}, {}};
+    Shot shot{models, camera, look, ball_of(*models.front(), camera.target), lamps_of(look, camera), {}, {}, {}, {}};
     const Vec3 back = axes_of(camera).back;
     for (const Instance* model : models) {
         shot.all = joined(shot.all, ball_of(*model, camera.target));
         for (std::size_t p = 0; p < model->still->pieces.size(); ++p) {
             const Piece& piece = model->still->pieces[p];
-            const double depth = dot(back, moved(model->place, model->centres[p]));
-            (is_blend(*model, piece) ? shot.clear : shot.solid).push_back({model, &piece, depth});
+            std::vector<Part>& parts = is_blend(*model, piece)     ? shot.clear
+                                       : is_special(*model, piece) ? shot.special
+                                       : is_small(*model, piece)   ? shot.small
+                                                                   : shot.plain;
+            parts.push_back({model, &piece, dot(back, moved(model->place, model->centres[p]))});
         }
     }
     std::stable_sort(shot.clear.begin(), shot.clear.end(),
-                     [](const Shot::Part& a, const Shot::Part& b) { return a.depth < b.depth; });
+                     [](const Part& a, const Part& b) { return a.depth < b.depth; });
     if (!targets_ || !targets_->fits(camera.width, camera.height)) {
         targets_.reset();
         targets_.emplace(camera.width, camera.height);

@@ -26,16 +26,20 @@ public:
 
 private:
     struct Shot;
+    struct Part;
     void draw_draft(const Shot& shot);
     void draw_full(const Shot& shot);
     void draw_shadows(const Shot& shot, const ShadowView& shadow);
-    void draw_everything(const Shot& shot, GlProgram& program, const Matrix& view);
-    void draw_piece(GlProgram& program, const Instance& model, const Piece& piece, int alpha_mode);
+    void draw_facts(const Shot& shot, const Matrix& view);
+    void draw_pass(const Shot& shot, const Pass& pass, const Matrix& view, std::size_t passes, float grain);
+    void draw_parts(const Shot& shot, std::span<const Part> parts, GlProgram& program, const Matrix& view);
+    void draw_clear(const Shot& shot, GlProgram& program, const Matrix& view);
     void draw_wire(const Shot& shot, const Matrix& view);
     void draw_marks(const Shot& shot, const Matrix& view);
+    void take_up(const Shot& shot, const Instance& model, GlProgram& program);
     void cover(GlProgram& program);
 
-    GlProgram draft_, full_, shadow_, wire_, mark_, background_, add_, develop_;
+    GlProgram quick_, draft_, facts_, deferred_, full_, shadow_, wire_, mark_, background_, add_, develop_;
     GlName heat_, opposite_, nothing_;  ///< `nothing_`: a vertex array without attributes
     std::optional<Targets> targets_;
 };

@@ -55,7 +55,7 @@ precision highp float;
 out vec2 place;  // 0 to 1 from the upper left corner
 void main() {
     place = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
-    gl_Position = vec4(place * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4(place * 2.0 - 1.0, 1.0, 1.0);
 }
 )";
 

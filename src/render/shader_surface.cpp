@@ -14,19 +14,40 @@ namespace mien::shaders {
 
 namespace {
 
-const char* const declarations = R"(
+const char* const precisions = R"(
 precision highp float;
 precision highp int;
 precision highp sampler2D;
+)";
 
-in vec3 position;  // from what the camera looks at
+const char* const light_declarations = R"(
+uniform vec3 camera;  // from what the camera looks at, as all places
+uniform int lamps;
+uniform vec3 lamp[8], across[8], upward[8], light[8];
+uniform vec3 sky, ground;
+uniform bool dome;      // full: the lamp is a place on the dome
+uniform vec3 sample_at; // full: the direction of the place on the lamp whose shadow is known
+uniform sampler2D shadow_map;
+uniform mat4 shadow;
+uniform vec3 shadow_size;  // of a texel, of the whole depth, in the scene's unit; of a texel in the map
+uniform float grain;
+uniform float path;  // how far red light goes in what scatters all of it
+
+struct Surface {
+    vec3 diffuse, reflect, n, coat;  // coat: the normal of the wet layer
+    vec3 scatter;
+    float alpha, rough, wetness;
+    vec3 glow;
+};
+)";
+
+const char* const material_declarations = R"(
+in vec3 position;
 in vec3 normal;
 in vec2 uv;
 in vec3 eye;
 in float value;
-out vec4 shown;
 
-uniform vec3 camera;
 uniform vec4 colour;
 uniform float metallic, roughness, normal_scale, cutoff;
 uniform vec3 emission, scatter;
@@ -35,37 +56,17 @@ uniform bool unlit, painted, wet;
 uniform vec4 pictures;  // 1 where there is one: colour, roughness, normal, emission
 uniform sampler2D colour_picture, roughness_picture, normal_picture, emission_picture, scale;
 uniform vec2 scale_ends;
-
-uniform int lamps;
-uniform vec3 lamp[8], across[8], upward[8], light[8];
-uniform vec3 sky, ground;
-#ifdef FULL
-uniform bool dome;      // the lamp is a place on the dome
-uniform vec3 sample_at; // the direction of the place on the lamp whose shadow is known
-uniform sampler2D shadow_map;
-uniform mat4 shadow;
-uniform vec3 shadow_size;  // of a texel, of the whole depth, in the scene's unit; of a texel in the map
-uniform float grain;
-uniform float path;  // how far red light goes in what scatters all of it
-#endif
 )";
 
 const char* const material = R"(
-struct Surface {
-    vec3 diffuse, reflect, n, coat;  // coat: the normal of the wet layer
-    vec3 scatter;
-    float alpha, rough, wetness;
-    vec3 glow;
-};
-
 // Directions of growing u and v on the surface, from how they change over the picture (C. Schueler 2013).
 mat2x3 directions(vec2 at, vec3 n) {
     vec3 px = dFdx(position), py = dFdy(position);
     vec2 ux = dFdx(at), uy = dFdy(at);
     vec3 a = cross(py, n), b = cross(n, px);
     vec3 t = a * ux.x + b * uy.x, s = a * ux.y + b * uy.y;
-    float size = max(dot(t, t), dot(s, s));
-    return mat2x3(t, s) * (size > 0.0 ? inversesqrt(size) : 0.0);
+    float size = max(dot(t, t), dot(s, s)), side = dot(cross(px, py), n) < 0.0 ? -1.0 : 1.0;
+    return mat2x3(t, s) * (size > 0.0 ? side * inversesqrt(size) : 0.0);
 }
 
 float noise(vec2 p) {
@@ -140,14 +141,14 @@ Surface surface() {
 )";
 
 const char* const lobes = R"(
-// Distribution and masking of one lobe towards a lamp, without Fresnel; times pi, as light is counted.
+// Distribution and masking of one lobe towards the nearest place on a lamp, without Fresnel; times pi, as light is
+// counted. A lobe narrower than the lamp mirrors all of it, which `widened` makes up for.
 float lobe(float alpha, float widened, float nh, float nl, float nv) {
-    float a2 = widened * widened;
+    float a2 = alpha * alpha;
     float d = nh * nh * (a2 - 1.0) + 1.0;
-    float energy = alpha / widened;
     float k = 0.5 * alpha;
     float mask = 0.25 / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
-    return energy * energy * a2 / (d * d) * mask;
+    return a2 * a2 / (d * d * widened * widened) * mask;
 }
 
 // What a lamp's mirror image adds.
@@ -204,57 +205,158 @@ vec3 wrapped(float nl, vec3 scattered) {
 }
 )";
 
-const char* const draft_main = R"(
-void main() {
-    Surface s = surface();
-    if (unlit) {
-        shown = vec4(to_srgb(s.diffuse), 1.0) * s.alpha;
-        return;
-    }
-    vec3 v = normalize(camera - position);
+const char* const draft_light = R"(
+vec3 lit(Surface s, vec3 v, vec3 at) {
     vec3 diffuse = mix(ground, sky, 0.5 + 0.33 * s.n.y), reflected = room_reflection(s, v);
     for (int i = 0; i < lamps; ++i) {
         diffuse += light[i] * wrapped(dot(s.n, lamp[i]), s.scatter);
         reflected += light[i] * reflection(i, s, v);
     }
-    vec3 sum = s.diffuse * diffuse * s.alpha + min(reflected, 8.0) + s.glow;
-    shown = vec4(to_srgb(film(sum)), s.alpha);
+    return s.diffuse * diffuse * s.alpha + min(reflected, 8.0) + s.glow;
 }
+vec3 shown_as_it_is(vec3 c) { return to_srgb(c); }
+vec3 developed(vec3 c) { return to_srgb(film(c)); }
 )";
 
-const char* const full_main = R"(
+const char* const full_light = R"(
 // How much of the light arrives, per channel: all, none, or what came through.
-vec3 arriving(Surface s, vec3 n) {
-    vec4 at = shadow * vec4(position + n * (1.5 * shadow_size.x), 1.0);
+vec3 arriving(Surface s, vec3 place) {
+    vec4 at = shadow * vec4(place + s.n * max(1.5 * shadow_size.x, 0.12 * path), 1.0);
     float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))) + grain);
-    vec2 arm = 2.2 * shadow_size.z * vec2(cos(turn), sin(turn));
+    // About a millimetre, so that the few places on a lamp leave no steps.
+    float reach_of_arm = clamp(0.3 * path / shadow_size.x, 2.0, 9.0);
+    vec2 arm = reach_of_arm * shadow_size.z * vec2(cos(turn), sin(turn));
     vec3 reach = max(path * s.scatter, 1e-6);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         float thick = (at.z - texture(shadow_map, at.xy + arm).r) * shadow_size.y;
-        sum += thick < shadow_size.x ? vec3(1.0) : exp(-thick / reach);
-        arm = vec2(-arm.y, arm.x) * 0.86;
+        sum += thick < max(shadow_size.x, 0.06 * path) ? vec3(1.0) : exp(-thick / reach);
+        arm = vec2(-arm.y, arm.x) * 0.8;
     }
     return 0.25 * sum;
 }
+vec3 lit(Surface s, vec3 v, vec3 at) {
+    vec3 there = arriving(s, at);
+    vec3 diffuse = light[0] * wrapped(dot(s.n, sample_at), s.scatter) * there;
+    vec3 reflected = there.b * (dome ? 4.0 * room_reflection(s, v) * light[1] * max(dot(s.n, sample_at), 0.0)
+                                     : light[0] * reflection(0, s, v));
+    return s.diffuse * diffuse * s.alpha + min(reflected, 24.0) + s.glow;
+}
+vec3 shown_as_it_is(vec3 c) { return unfilm(c); }
+vec3 developed(vec3 c) { return c; }
+)";
 
+const char* const surface_main = R"(
+out vec4 shown;
 void main() {
     Surface s = surface();
-    if (unlit) {
-        shown = vec4(unfilm(s.diffuse), 1.0) * s.alpha;
-        return;
-    }
-    vec3 v = normalize(camera - position);
-    vec3 facing = normalize(normal) * (gl_FrontFacing ? 1.0 : -1.0);
-    vec3 there = arriving(s, facing);
-    vec3 diffuse = light[0] * wrapped(dot(s.n, sample_at), s.scatter) * there;
-    float open = there.b;
-    vec3 reflected = dome ? 4.0 * room_reflection(s, v) * light[1] * max(dot(s.n, sample_at), 0.0) * open
-                          : light[0] * reflection(0, s, v) * open;
-    vec3 sum = s.diffuse * diffuse * s.alpha + min(reflected, 24.0) + s.glow;
-    shown = vec4(sum, s.alpha);
+    vec3 c = unlit ? shown_as_it_is(s.diffuse) * s.alpha : developed(lit(s, normalize(camera - position), position));
+    shown = vec4(c, s.alpha);
 }
 )";
+
+const char* const facts_main = R"(
+layout(location = 0) out vec4 base_fact;     // colour as its root, metal
+layout(location = 1) out vec4 normal_fact;   // and roughness
+layout(location = 2) out vec4 scatter_fact;  // and 1: there is a surface
+layout(location = 3) out vec4 depth_fact;
+uniform vec3 camera, forwards;
+void main() {
+    Surface s = surface();
+    base_fact = vec4(sqrt(s.diffuse), 1.0);
+    normal_fact = vec4(s.n, s.rough);
+    scatter_fact = vec4(s.scatter, 1.0);
+    depth_fact = vec4(dot(position - camera, forwards), s.reflect);
+}
+)";
+
+const char* const deferred_main = R"(
+uniform sampler2D base_facts, normal_facts, scatter_facts, depth_facts;
+uniform vec3 ray, ray_x, ray_y;  // from the camera to the pixel at a depth of 1
+out vec4 shown;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 scattered = texelFetch(scatter_facts, pixel, 0);
+    vec4 base = texelFetch(base_facts, pixel, 0), turned = texelFetch(normal_facts, pixel, 0);
+    vec4 depth = texelFetch(depth_facts, pixel, 0);
+    vec3 to = ray + gl_FragCoord.x * ray_x + gl_FragCoord.y * ray_y;
+    Surface s;
+    s.diffuse = base.rgb * base.rgb;
+    s.reflect = depth.yzw;
+    s.n = s.coat = turned.xyz;
+    s.rough = turned.w;
+    s.scatter = scattered.rgb;
+    s.alpha = 1.0;
+    s.wetness = 0.0;
+    s.glow = vec3(0.0);
+    shown = scattered.a > 0.0 ? vec4(lit(s, normalize(-to), camera + depth.x * to), 1.0) : vec4(0.0);
+}
+)";
+
+// Light at the vertices, for surfaces of many small triangles.
+const char* const quick_vertex = R"(
+layout(location = 0) in vec3 posed_position;
+layout(location = 1) in vec3 posed_normal;
+layout(location = 2) in vec2 corner_uv;
+layout(location = 4) in float vertex_value;
+uniform mat4 view, place, turn;
+uniform bool double_sided;
+uniform float roughness, metallic;
+uniform vec4 colour;
+uniform vec3 scatter;
+out vec3 diffuse, reflected;
+out vec2 uv;
+out float value;
+void main() {
+    vec4 at = place * vec4(posed_position, 1.0);
+    vec3 v = normalize(camera - at.xyz);
+    Surface s;
+    s.diffuse = vec3(1.0 - metallic);
+    s.n = s.coat = normalize(mat3(turn) * posed_normal);
+    if (double_sided && dot(s.n, v) < -0.2) s.n = -s.n;
+    s.rough = clamp(roughness, 0.05, 1.0);
+    s.reflect = mix(vec3(scatter.r > 0.01 ? 0.028 : 0.04), colour.rgb, metallic);
+    s.scatter = scatter;
+    s.alpha = 1.0;
+    s.wetness = 0.0;
+    diffuse = s.diffuse * mix(ground, sky, 0.5 + 0.33 * s.n.y);
+    reflected = room_reflection(s, v);
+    for (int i = 0; i < lamps; ++i) {
+        diffuse += s.diffuse * light[i] * wrapped(dot(s.n, lamp[i]), scatter);
+        reflected += light[i] * reflection(i, s, v);
+    }
+    uv = corner_uv;
+    value = vertex_value;
+    gl_Position = view * at;
+}
+)";
+
+const char* const quick_fragment = R"(
+in vec3 diffuse, reflected;
+in vec2 uv;
+in float value;
+uniform vec4 colour, pictures;
+uniform float cutoff;
+uniform int alpha_mode;
+uniform bool painted;
+uniform sampler2D colour_picture, scale;
+uniform vec2 scale_ends;
+out vec4 shown;
+void main() {
+    vec4 base = colour;
+    if (pictures.x > 0.0) base *= texture(colour_picture, uv);
+    if (alpha_mode == 1 && base.a < cutoff) discard;
+    vec3 mirror = reflected;
+    if (painted && !isnan(value)) {
+        float share = clamp((value - scale_ends.x) / (scale_ends.y - scale_ends.x), 0.0, 1.0);
+        base.rgb = from_srgb(texture(scale, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb);
+        mirror *= 0.3;
+    }
+    shown = vec4(to_srgb(film(base.rgb * diffuse + mirror)), 1.0);
+}
+)";
+
+const std::string version = "#version 300 es\n";
 
 }  // namespace
 
@@ -283,8 +385,26 @@ void main() {
 }
 
 std::string surface_fragment(bool full) {
-    return std::string("#version 300 es\n") + (full ? "#define FULL\n" : "") + declarations + film + material + lobes +
-           (full ? full_main : draft_main);
+    return version + precisions + light_declarations + material_declarations + film + material + lobes +
+           (full ? full_light : draft_light) + surface_main;
+}
+
+std::string facts_fragment() {
+    return version + precisions +
+           "struct Surface { vec3 diffuse, reflect, n, coat, scatter; float alpha, rough, wetness; vec3 glow; };" +
+           material_declarations + film + material + facts_main;
+}
+
+std::string deferred_fragment() {
+    return version + precisions + light_declarations + film + lobes + full_light + deferred_main;
+}
+
+std::string quick_lit_vertex() {
+    return version + precisions + light_declarations + lobes + quick_vertex;
+}
+
+std::string quick_lit_fragment() {
+    return version + precisions + film + quick_fragment;
 }
 
 const std::string shadow_vertex = R"(#version 300 es

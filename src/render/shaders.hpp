@@ -10,10 +10,16 @@ namespace mien::shaders {
 /// Moves every vertex and its normal; transform feedback keeps `posed_position` and `posed_normal`.
 extern const std::string move_vertex, move_fragment;
 
-/// Surfaces with their materials. Before the version line of `surface_fragment` go `#define FULL` for one lamp with its
-/// shadow, or nothing for all lamps without.
+/// Surfaces with their materials: all lamps without shadows, developed; or, `full`, one lamp with its shadow.
 std::string surface_vertex();
 std::string surface_fragment(bool full);
+/// The same as `full` in two steps, so that the light is worked out once a pixel however small the triangles are: what
+/// the surface is like, then one lamp with its shadow.
+std::string facts_fragment();
+std::string deferred_fragment();
+/// All lamps without shadows, at the vertices.
+std::string quick_lit_vertex();
+std::string quick_lit_fragment();
 /// Depth alone, as a lamp sees it.
 extern const std::string shadow_vertex, shadow_fragment;
 /// Plain colour: edges of triangles.

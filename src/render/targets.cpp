@@ -78,11 +78,22 @@ void Targets::make_full() {
     shadow_ = framebuffer();
     attach_picture(GL_DEPTH_ATTACHMENT, shadow_map_);
     require_complete("shadow maps");
+    depth_ = samples(GL_DEPTH_COMPONENT24, width_, height_, 0);
+    facts_ = framebuffer();
+    constexpr std::array<GLenum, 4> formats{GL_RGBA8, GL_RGBA16F, GL_RGBA8, GL_RGBA32F};
+    std::array<GLenum, 4> places{};
+    for (std::size_t i = 0; i < formats.size(); ++i) {
+        facts_pictures_[i] = picture(formats[i], width_, height_);
+        places[i] = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
+        attach_picture(places[i], facts_pictures_[i]);
+    }
+    glDrawBuffers(static_cast<GLsizei>(places.size()), places.data());
+    attach_samples(GL_DEPTH_ATTACHMENT, depth_);
+    require_complete("single-precision numbers");
     pass_picture_ = picture(GL_RGBA16F, width_, height_);
-    pass_depth_ = samples(GL_DEPTH_COMPONENT24, width_, height_, 0);
     pass_ = framebuffer();
     attach_picture(GL_COLOR_ATTACHMENT0, pass_picture_);
-    attach_samples(GL_DEPTH_ATTACHMENT, pass_depth_);
+    attach_samples(GL_DEPTH_ATTACHMENT, depth_);
     require_complete("half-precision numbers");
     const bool wide =
         epoxy_has_gl_extension("GL_EXT_color_buffer_float") && epoxy_has_gl_extension("GL_EXT_float_blend");
@@ -131,9 +142,15 @@ void Targets::begin_shadow() {
     clear(GL_DEPTH_BUFFER_BIT);
 }
 
+void Targets::begin_facts() {
+    begin(facts_, width_, height_);
+    clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+// Keeps the depth of the facts.
 void Targets::begin_pass() {
     begin(pass_, width_, height_);
-    clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    clear(GL_COLOR_BUFFER_BIT);
 }
 
 void Targets::begin_adding() {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "render/gl_objects.hpp"
@@ -28,14 +29,18 @@ public:
     /// The samples joined, ready to be read.
     void end_draft();
 
-    /// For a sum of passes, in this order: an empty sum; for each pass its shadow, its picture, its share of the sum;
-    /// then the place for the developed picture. Throws Error if the driver cannot draw into numbers beyond 0 to 1.
+    /// For a sum of passes, in this order: an empty sum; for each shift of the picture the facts of its surfaces; for
+    /// each pass its shadow, its picture, its share of the sum; at last the place for the developed picture. Throws
+    /// Error if the driver cannot draw into numbers beyond 0 to 1.
     void begin_sum();
+    void begin_facts();
     void begin_shadow();
     void begin_pass();
     void begin_adding();
     void begin_developing();
 
+    /// Rgb, normal, scatter, depth.
+    [[nodiscard]] GLuint fact(std::size_t which) const { return facts_pictures_[which].name(); }
     [[nodiscard]] GLuint pass_picture() const { return pass_picture_.name(); }
     [[nodiscard]] GLuint sum_picture() const { return sum_picture_.name(); }
     [[nodiscard]] GLuint shadow_map() const { return shadow_map_.name(); }
@@ -48,7 +53,8 @@ private:
 
     GLsizei width_, height_;
     GlName draft_, draft_colour_, draft_depth_, done_, done_colour_;
-    GlName shadow_, shadow_map_, pass_, pass_picture_, pass_depth_, sum_, sum_picture_;
+    GlName shadow_, shadow_map_, facts_, pass_, pass_picture_, depth_, sum_, sum_picture_;
+    std::array<GlName, 4> facts_pictures_;
 };
 
 }  // namespace mien

@@ -3,23 +3,10 @@
 
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "mien/mesh.hpp"
 #include "mien/render/renderer.hpp"
 #include "mien/scene.hpp"
 
 namespace mien {
-
-/// A mesh as a scene, for files that are not glTF: a surface per part, faces cut into triangles, a vertex for every
-/// pair of position and texture coordinate. `vertices`: for each vertex of the surfaces, in order, its vertex in the
-/// mesh (for `Movement::vertices`).
-struct MeshScene {
-    Scene scene;
-    std::vector<std::uint32_t> vertices;
-};
-MeshScene scene_of(const Mesh& mesh);
 
 /// Gives a face the look of one where its file says nothing.
 ///
