@@ -79,7 +79,7 @@ void add_mesh(Growing& out, std::size_t m, const Standing& standing) {
     std::uint32_t number = 0;
     for (Primitive& primitive : primitives_of(out.document, m)) {
         primitive.first_vertex = static_cast<std::uint32_t>(vertex_count(out.mesh));
-        primitive.maps = vertex_maps(out.document, standing, *primitive.value, primitive.vertices, primitive.pointer);
+        primitive.maps = vertex_maps(standing, primitive);
         add_primitive(out, primitive, {part_name(out, m, standing), static_cast<std::uint32_t>(m), number++}, names);
     }
 }
@@ -106,6 +106,7 @@ Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     if (!out.any_uvs) out.mesh.corner_uvs.clear();
     out.mesh.unit.assign(1, 'm');
     out.mesh.gltf = format_glb(document);
+    out.mesh.left_out = document.left_out;
     return std::move(out.mesh);
 }
 
