@@ -8,46 +8,12 @@
 #include <map>
 #include <optional>
 #include <string_view>
-#include <tuple>
+
+#include "render/geometry.hpp"
 
 namespace mien {
 
 namespace {
-
-// A part of the mesh on its way to a surface.
-struct Growing {
-    const Mesh& mesh;
-    Surface surface;
-    std::vector<std::uint32_t> vertices;
-    std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;  // by vertex and texture coordinate
-};
-
-std::uint32_t vertex_of(Growing& growing, std::uint32_t corner) {
-    const std::uint32_t vertex = growing.mesh.face_vertices[corner];
-    const Vec2f uv = growing.mesh.corner_uvs.empty() ? Vec2f{} : growing.mesh.corner_uvs[corner];
-    const auto [found, is_new] =
-        growing.known.try_emplace({vertex, uv.x, uv.y}, static_cast<std::uint32_t>(growing.vertices.size()));
-    if (is_new) {
-        growing.vertices.push_back(vertex);
-        growing.surface.positions.push_back(growing.mesh.positions[vertex]);
-        if (!growing.mesh.corner_uvs.empty()) growing.surface.uvs.push_back(uv);
-    }
-    return found->second;
-}
-
-// Four corners are cut along the shorter diagonal, more as a fan.
-void add_face(Growing& growing, std::size_t f) {
-    std::vector<std::uint32_t> corners;
-    for (std::uint32_t c = growing.mesh.face_starts[f]; c < growing.mesh.face_starts[f + 1]; ++c)
-        corners.push_back(vertex_of(growing, c));
-    const auto apart = [&](std::size_t a, std::size_t b) {
-        return distance(growing.surface.positions[corners[a]], growing.surface.positions[corners[b]]);
-    };
-    if (corners.size() == 4 && apart(1, 3) < apart(0, 2))
-        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-    for (std::size_t k = 2; k < corners.size(); ++k)
-        growing.surface.triangles.insert(growing.surface.triangles.end(), {corners[0], corners[k - 1], corners[k]});
-}
 
 bool is_white(const Material& m) {
     return m.colour == std::array<float, 4>{1, 1, 1, 1} && !m.colour_picture;
@@ -55,9 +21,11 @@ bool is_white(const Material& m) {
 
 // Says nothing that a file without materials would not.
 bool is_plain(const Material& m) {
-    return is_white(m) && m.roughness == 1 && (m.metallic == 0 || m.metallic == 1) && !m.roughness_picture &&
-           !m.normal_picture && !m.emission_picture && m.emission == std::array<float, 3>{} &&
-           m.scatter == std::array<float, 3>{} && m.alpha == Material::Alpha::opaque && !m.unlit;
+    const bool grey = m.colour[0] >= 0.6F && m.colour[0] == m.colour[1] && m.colour[1] == m.colour[2];
+    const bool pictured = m.colour_picture || m.roughness_picture || m.normal_picture || m.emission_picture;
+    return grey && !pictured && m.roughness >= 0.5F && (m.metallic == 0 || m.metallic == 1) &&
+           m.emission == std::array<float, 3>{} && m.scatter == std::array<float, 3>{} &&
+           m.alpha == Material::Alpha::opaque && !m.unlit && (m.name.empty() || m.name == "plain");
 }
 
 bool has_word(const std::string& name, std::string_view word) {
@@ -66,7 +34,7 @@ bool has_word(const std::string& name, std::string_view word) {
 }
 
 struct Dress {
-    std::string_view word;  // in the name of a surface or its material
+    std::string_view word;  // in the name of a surface
     std::array<float, 4> colour;
     float roughness;
     std::array<float, 3> scatter;
@@ -86,10 +54,8 @@ constexpr std::array<Dress, 10> wardrobe{{
     {"", {0.58F, 0.345F, 0.26F, 1}, 0.46F, skin_scatter},
 }};
 
-const Dress& dress_for(const Surface& surface, const Material& material, bool on_eyeball) {
-    const auto fits = [&](const Dress& dress) {
-        return dress.word.empty() || has_word(surface.name, dress.word) || has_word(material.name, dress.word);
-    };
+const Dress& dress_for(const Surface& surface, bool on_eyeball) {
+    const auto fits = [&](const Dress& dress) { return dress.word.empty() || has_word(surface.name, dress.word); };
     if (on_eyeball) return wardrobe[wardrobe.size() - 2];
     return *std::find_if(wardrobe.begin(), wardrobe.end(), fits);
 }
@@ -98,24 +64,21 @@ const Dress& dress_for(const Surface& surface, const Material& material, bool on
 struct Use {
     std::size_t moved = 0, on_eyeball = 0, vertices = 0;
 };
-std::vector<Use> uses_of(const Scene& scene, const Movement& movement) {
+std::vector<Use> uses_of(const Scene& scene, const Rig* rig) {
     std::vector<Use> uses(scene.surfaces.size());
-    std::size_t all = 0;
-    for (std::size_t s = 0; s < uses.size(); ++s) all += uses[s].vertices = scene.surfaces[s].positions.size();
-    const Rig* rig = movement.rig;
-    if (rig == nullptr || (movement.vertices.empty() ? vertex_count(*rig) : movement.vertices.size()) != all)
-        return uses;
-    std::vector<bool> on_eyeball(vertex_count(*rig), false);
-    for (const Eyeball& eyeball : rig->eyeballs)
-        for (const std::uint32_t v : eyeball.vertices) on_eyeball[v] = true;
+    std::vector<bool> on_eyeball(rig != nullptr ? vertex_count(*rig) : 0, false);
+    for (std::size_t e = 0; rig != nullptr && e < rig->eyeballs.size(); ++e)
+        for (const std::uint32_t v : rig->eyeballs[e].vertices) on_eyeball[v] = true;
+    const std::vector<std::uint32_t> vertices = mesh_vertices(scene);
     std::size_t at = 0;
-    for (Use& use : uses)
-        for (std::size_t v = 0; v < use.vertices; ++v, ++at) {
-            const std::size_t source = movement.vertices.empty() ? at : movement.vertices[at];
-            if (source >= on_eyeball.size()) continue;
-            use.on_eyeball += on_eyeball[source] ? 1U : 0U;
-            use.moved += rig->row_starts[source + 1] > rig->row_starts[source] ? 1U : 0U;
+    for (std::size_t s = 0; s < uses.size(); ++s) {
+        uses[s].vertices = scene.surfaces[s].positions.size();
+        for (std::size_t v = 0; v < uses[s].vertices; ++v, ++at) {
+            if (vertices[at] >= on_eyeball.size()) continue;
+            uses[s].on_eyeball += on_eyeball[vertices[at]] ? 1U : 0U;
+            uses[s].moved += rig->row_starts[vertices[at] + 1] > rig->row_starts[vertices[at]] ? 1U : 0U;
         }
+    }
     return uses;
 }
 
@@ -139,34 +102,15 @@ bool is_called_skin(const Material& m) {
 
 }  // namespace
 
-MeshScene scene_of(const Mesh& mesh) {
-    MeshScene made;
-    made.scene.materials.emplace_back();
-    made.scene.nodes.emplace_back();
-    std::vector<Part> parts = mesh.parts;
-    if (parts.empty()) parts.push_back({"", 0, 0, 0, 0, 0, static_cast<std::uint32_t>(face_count(mesh))});
-    for (const Part& part : parts) {
-        Growing growing{mesh, {}, {}, {}};
-        growing.surface.name = part.name;
-        growing.surface.mesh = part.mesh;
-        growing.surface.primitive = part.primitive;
-        for (std::size_t f = part.first_face; f < part.first_face + part.face_count; ++f) add_face(growing, f);
-        made.vertices.insert(made.vertices.end(), growing.vertices.begin(), growing.vertices.end());
-        made.scene.surfaces.push_back(std::move(growing.surface));
-    }
-    return made;
-}
-
-void dress(Scene& scene, const Movement& movement) {
-    const std::vector<Use> uses = uses_of(scene, movement);
+void dress(Scene& scene, const Rig* rig) {
+    const std::vector<Use> uses = uses_of(scene, rig);
     const auto skin = most_moved(scene, uses);
     const std::size_t given = scene.materials.size();
     std::map<std::pair<std::uint32_t, const Dress*>, std::uint32_t> made;
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         Surface& surface = scene.surfaces[s];
         if (!is_plain(scene.materials[surface.material])) continue;
-        const Dress& dress =
-            dress_for(surface, scene.materials[surface.material], 2 * uses[s].on_eyeball > uses[s].vertices);
+        const Dress& dress = dress_for(surface, 2 * uses[s].on_eyeball > uses[s].vertices);
         const auto [found, is_new] =
             made.try_emplace({surface.material, &dress}, static_cast<std::uint32_t>(scene.materials.size()));
         if (is_new) {

@@ -6,45 +6,8 @@
 #include <array>
 #include <gmock/gmock.h>
 
-#include "shapes.hpp"
-
 namespace mien {
 namespace {
-
-using testing::ElementsAre;
-
-TEST(SceneOf, AQuadBecomesTwoTrianglesAlongItsShorterDiagonal) {
-    Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {2, 1, 0}, {4, 0, 0}, {2, -1, 0}};
-    add_face(mesh, std::array{0U, 3U, 2U, 1U});
-    const MeshScene made = scene_of(mesh);
-    ASSERT_EQ(made.scene.surfaces.size(), 1U);
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t v : made.scene.surfaces[0].triangles) corners.push_back(made.vertices[v]);
-    // Vertices 1 and 3 are nearer to each other than 0 and 2.
-    EXPECT_THAT(corners, ElementsAre(3, 2, 1, 3, 1, 0));
-}
-
-TEST(SceneOf, AVertexIsSplitWhereItsTextureCoordinatesDiffer) {
-    Mesh mesh = shapes::grid(2, 1);
-    for (std::size_t f = 0; f < 2; ++f)
-        for (std::size_t c = 0; c < 4; ++c) mesh.corner_uvs.push_back({static_cast<float>(f), c < 2 ? 0.0F : 1.0F});
-    const MeshScene made = scene_of(mesh);
-    // Two vertices lie between the quads and have one coordinate in each.
-    EXPECT_EQ(made.vertices.size(), mesh.positions.size() + 2);
-    for (std::size_t v = 0; v < made.vertices.size(); ++v)
-        EXPECT_EQ(made.scene.surfaces[0].positions[v], mesh.positions[made.vertices[v]]);
-}
-
-TEST(SceneOf, EveryPartIsASurfaceWithItsFaces) {
-    Mesh mesh = shapes::grid(3, 1);
-    mesh.parts = {{"skin", 0, 0, 0, 8, 0, 2}, {"eye", 0, 1, 0, 8, 2, 1}};
-    const MeshScene made = scene_of(mesh);
-    ASSERT_EQ(made.scene.surfaces.size(), 2U);
-    EXPECT_EQ(made.scene.surfaces[0].name, "skin");
-    EXPECT_EQ(made.scene.surfaces[0].triangles.size(), 12U);
-    EXPECT_EQ(made.scene.surfaces[1].triangles.size(), 6U);
-}
 
 Scene scene_of_names(const std::vector<std::string>& names) {
     Scene scene;
@@ -73,6 +36,17 @@ TEST(Dress, PlainSurfacesAreDressedByTheirName) {
     EXPECT_EQ(worn(scene, 5).scatter, worn(scene, 0).scatter) << "a lid is skin";
 }
 
+TEST(Dress, PlainIsWhatReadersGiveWhereAFileHasNoMaterial) {
+    for (const float grey : {0.8F, 1.0F}) {
+        Scene scene = scene_of_names({"tongue"});
+        scene.materials[0].name = "plain";
+        scene.materials[0].colour = {grey, grey, grey, 1};
+        scene.materials[0].roughness = 0.7F;
+        dress(scene);
+        EXPECT_GT(worn(scene, 0).colour[0], 2 * worn(scene, 0).colour[1]);
+    }
+}
+
 TEST(Dress, AMaterialThatSaysWhatItIsStaysAsItIs) {
     Scene scene = scene_of_names({"hat"});
     scene.materials[0].colour = {0.1F, 0.2F, 0.9F, 1};
@@ -95,7 +69,7 @@ TEST(Dress, LightTravelsUnderWhatIsCalledSkinAndUnderWhatTheRigMovesMost) {
     rig.row_starts = {0, 0, 0, 0, 0, 0, 0, 1, 2, 3};  // the third surface moves
     rig.row_points = {0, 0, 0};
     rig.weights.resize(3);
-    dress(scene, {&rig, {}, {}});
+    dress(scene, &rig);
     EXPECT_GT(scene.materials[0].scatter[0], 0);
     EXPECT_EQ(scene.materials[1].scatter[0], 0);
     EXPECT_GT(scene.materials[2].scatter[0], 0);
@@ -115,7 +89,7 @@ TEST(Dress, AnEyeballOfTheRigIsAnEyeWhateverItsName) {
     rig.rest.resize(3);
     rig.row_starts = {0, 0, 0, 0};
     rig.eyeballs = {{"eye", {0, 1, 2}, {}, {}}};
-    dress(scene, {&rig, {}, {}});
+    dress(scene, &rig);
     EXPECT_LT(worn(scene, 0).roughness, 0.3F);
 }
 
