@@ -42,7 +42,7 @@ std::vector<Vec3f> displacements_at(const Actor& actor, double time) {
 }
 
 Movement movement(const Actor& actor) {
-    return {actor.rig ? &*actor.rig : nullptr, {}, actor.vertices};
+    return {actor.rig ? &*actor.rig : nullptr, {}};
 }
 
 // How far apart pictures may be, and of how many vertices, when motion is looked at to choose from it.
@@ -76,10 +76,8 @@ Actor actor_of(const std::string& name, const Mesh& mesh, std::optional<Rig> rig
     actor.name = name;
     actor.rig = std::move(rig);
     actor.scene = scene_of(mesh);
-    for (const Surface& surface : actor.scene.surfaces)
-        actor.vertices.insert(actor.vertices.end(), surface.mesh_vertices.begin(), surface.mesh_vertices.end());
     if (!actor.rig) actor.seconds = duration(actor.scene);
-    dress(actor.scene, movement(actor));
+    dress(actor.scene, actor.rig ? &*actor.rig : nullptr);
     return actor;
 }
 

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,9 +27,8 @@ struct NamedPlace {
 struct Actor {
     std::string name;  ///< the file's, for captions
     Scene scene;
-    std::vector<std::uint32_t> vertices;  ///< as Movement::vertices
-    std::optional<Rig> rig;               ///< its points move the head, by their exact weights
-    Take take;                            ///< of the rig's points; without rows it rests
+    std::optional<Rig> rig;  ///< its points move the head, by their exact weights
+    Take take;               ///< of the rig's points; without rows it rests
     TakeBinding binding;
     double seconds = 0;  ///< how long it plays; 0: it rests
 };

@@ -173,8 +173,9 @@ void Stage::paint_weights(std::size_t i) {
         throw Error(fmt::format("{}: expected a rig file with the feature point {}, found {}", actor.name,
                                 paint_.weights, actor.rig ? "a rig without it" : "no rig"));
     const std::vector<float> all = weights_of(*actor.rig, *point);
-    std::vector<float> values(renderer_.vertex_count(models_[i]));
-    for (std::size_t v = 0; v < values.size(); ++v) values[v] = all[actor.vertices.empty() ? v : actor.vertices[v]];
+    std::vector<float> values;
+    for (const Surface& surface : actor.scene.surfaces)
+        for (const std::uint32_t v : surface.mesh_vertices) values.push_back(all[v]);
     renderer_.paint(models_[i], {values, -1, 1, ColourScale::opposite});
 }
 

@@ -8,7 +8,8 @@
 #include <map>
 #include <optional>
 #include <string_view>
-#include <utility>
+
+#include "render/geometry.hpp"
 
 namespace mien {
 
@@ -20,9 +21,11 @@ bool is_white(const Material& m) {
 
 // Says nothing that a file without materials would not.
 bool is_plain(const Material& m) {
-    return is_white(m) && m.roughness == 1 && (m.metallic == 0 || m.metallic == 1) && !m.roughness_picture &&
-           !m.normal_picture && !m.emission_picture && m.emission == std::array<float, 3>{} &&
-           m.scatter == std::array<float, 3>{} && m.alpha == Material::Alpha::opaque && !m.unlit;
+    const bool grey = m.colour[0] >= 0.6F && m.colour[0] == m.colour[1] && m.colour[1] == m.colour[2];
+    const bool pictured = m.colour_picture || m.roughness_picture || m.normal_picture || m.emission_picture;
+    return grey && !pictured && m.roughness >= 0.5F && (m.metallic == 0 || m.metallic == 1) &&
+           m.emission == std::array<float, 3>{} && m.scatter == std::array<float, 3>{} &&
+           m.alpha == Material::Alpha::opaque && !m.unlit && (m.name.empty() || m.name == "plain");
 }
 
 bool has_word(const std::string& name, std::string_view word) {
@@ -31,7 +34,7 @@ bool has_word(const std::string& name, std::string_view word) {
 }
 
 struct Dress {
-    std::string_view word;  // in the name of a surface or its material
+    std::string_view word;  // in the name of a surface
     std::array<float, 4> colour;
     float roughness;
     std::array<float, 3> scatter;
@@ -51,10 +54,8 @@ constexpr std::array<Dress, 10> wardrobe{{
     {"", {0.58F, 0.345F, 0.26F, 1}, 0.46F, skin_scatter},
 }};
 
-const Dress& dress_for(const Surface& surface, const Material& material, bool on_eyeball) {
-    const auto fits = [&](const Dress& dress) {
-        return dress.word.empty() || has_word(surface.name, dress.word) || has_word(material.name, dress.word);
-    };
+const Dress& dress_for(const Surface& surface, bool on_eyeball) {
+    const auto fits = [&](const Dress& dress) { return dress.word.empty() || has_word(surface.name, dress.word); };
     if (on_eyeball) return wardrobe[wardrobe.size() - 2];
     return *std::find_if(wardrobe.begin(), wardrobe.end(), fits);
 }
@@ -63,24 +64,21 @@ const Dress& dress_for(const Surface& surface, const Material& material, bool on
 struct Use {
     std::size_t moved = 0, on_eyeball = 0, vertices = 0;
 };
-std::vector<Use> uses_of(const Scene& scene, const Movement& movement) {
+std::vector<Use> uses_of(const Scene& scene, const Rig* rig) {
     std::vector<Use> uses(scene.surfaces.size());
-    std::size_t all = 0;
-    for (std::size_t s = 0; s < uses.size(); ++s) all += uses[s].vertices = scene.surfaces[s].positions.size();
-    const Rig* rig = movement.rig;
-    if (rig == nullptr || (movement.vertices.empty() ? vertex_count(*rig) : movement.vertices.size()) != all)
-        return uses;
-    std::vector<bool> on_eyeball(vertex_count(*rig), false);
-    for (const Eyeball& eyeball : rig->eyeballs)
-        for (const std::uint32_t v : eyeball.vertices) on_eyeball[v] = true;
+    std::vector<bool> on_eyeball(rig != nullptr ? vertex_count(*rig) : 0, false);
+    for (std::size_t e = 0; rig != nullptr && e < rig->eyeballs.size(); ++e)
+        for (const std::uint32_t v : rig->eyeballs[e].vertices) on_eyeball[v] = true;
+    const std::vector<std::uint32_t> vertices = mesh_vertices(scene);
     std::size_t at = 0;
-    for (Use& use : uses)
-        for (std::size_t v = 0; v < use.vertices; ++v, ++at) {
-            const std::size_t source = movement.vertices.empty() ? at : movement.vertices[at];
-            if (source >= on_eyeball.size()) continue;
-            use.on_eyeball += on_eyeball[source] ? 1U : 0U;
-            use.moved += rig->row_starts[source + 1] > rig->row_starts[source] ? 1U : 0U;
+    for (std::size_t s = 0; s < uses.size(); ++s) {
+        uses[s].vertices = scene.surfaces[s].positions.size();
+        for (std::size_t v = 0; v < uses[s].vertices; ++v, ++at) {
+            if (vertices[at] >= on_eyeball.size()) continue;
+            uses[s].on_eyeball += on_eyeball[vertices[at]] ? 1U : 0U;
+            uses[s].moved += rig->row_starts[vertices[at] + 1] > rig->row_starts[vertices[at]] ? 1U : 0U;
         }
+    }
     return uses;
 }
 
@@ -104,16 +102,15 @@ bool is_called_skin(const Material& m) {
 
 }  // namespace
 
-void dress(Scene& scene, const Movement& movement) {
-    const std::vector<Use> uses = uses_of(scene, movement);
+void dress(Scene& scene, const Rig* rig) {
+    const std::vector<Use> uses = uses_of(scene, rig);
     const auto skin = most_moved(scene, uses);
     const std::size_t given = scene.materials.size();
     std::map<std::pair<std::uint32_t, const Dress*>, std::uint32_t> made;
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         Surface& surface = scene.surfaces[s];
         if (!is_plain(scene.materials[surface.material])) continue;
-        const Dress& dress =
-            dress_for(surface, scene.materials[surface.material], 2 * uses[s].on_eyeball > uses[s].vertices);
+        const Dress& dress = dress_for(surface, 2 * uses[s].on_eyeball > uses[s].vertices);
         const auto [found, is_new] =
             made.try_emplace({surface.material, &dress}, static_cast<std::uint32_t>(scene.materials.size()));
         if (is_new) {

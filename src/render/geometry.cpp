@@ -145,40 +145,29 @@ void bake(Geometry& geometry, const Surface& surface, const RestMaps& maps, std:
     }
 }
 
-std::uint32_t source_of(const Movement& movement, std::size_t v) {
-    return movement.vertices.empty() ? static_cast<std::uint32_t>(v) : movement.vertices[v];
-}
-
-void check_sizes(const Geometry& geometry, const Movement& movement) {
-    const std::size_t vertices = geometry.positions.size();
-    if (!movement.vertices.empty() && movement.vertices.size() != vertices)
-        throw Error(
-            fmt::format("render: expected the numbers of {} vertices, found {}", vertices, movement.vertices.size()));
+void check_sources(const Movement& movement, std::span<const std::uint32_t> sources) {
     if (movement.rig == nullptr) return;
     const std::size_t rigged = vertex_count(*movement.rig);
-    if (movement.vertices.empty() && rigged != vertices)
-        throw Error(
-            fmt::format("render: expected a rig for the {} vertices of the scene, found one for {}", vertices, rigged));
-    for (const std::uint32_t v : movement.vertices)
+    for (const std::uint32_t v : sources)
         if (v >= rigged)
-            throw Error(fmt::format("render: expected vertex numbers below the rig's {}, found {}", rigged, v));
+            throw Error(
+                fmt::format("render: expected a rig with a row for vertex {}, found one of {} rows", v, rigged));
 }
 
 // The rig's rows, the shapes' rows and the eyeballs' joints of every vertex.
-void add_movement(Geometry& geometry, const Movement& movement) {
+void add_movement(Geometry& geometry, const Movement& movement, std::span<const std::uint32_t> sources) {
     const std::size_t vertices = geometry.positions.size();
     const Rig* rig = movement.rig;
     const auto points = static_cast<std::uint32_t>(rig != nullptr ? rig->points.size() : 0);
-    std::size_t sources = 0;
-    for (std::size_t v = 0; v < vertices; ++v) sources = std::max<std::size_t>(sources, source_of(movement, v) + 1U);
-    const std::vector<Row> shapes =
-        rows_of(movement.shapes, std::max(sources, rig != nullptr ? vertex_count(*rig) : 0), points);
+    std::size_t used = rig != nullptr ? vertex_count(*rig) : 0;
+    for (const std::uint32_t source : sources) used = std::max<std::size_t>(used, source + 1U);
+    const std::vector<Row> shapes = rows_of(movement.shapes, used, points);
     std::vector<std::uint32_t> joint(shapes.size(), 0);
     for (std::size_t e = 0; rig != nullptr && e < rig->eyeballs.size(); ++e)
         for (const std::uint32_t v : rig->eyeballs[e].vertices) joint[v] = static_cast<std::uint32_t>(e + 1);
     Row row;
     for (std::size_t v = 0; v < vertices; ++v) {
-        const std::uint32_t source = source_of(movement, v);
+        const std::uint32_t source = sources[v];
         if (rig != nullptr) {
             geometry.positions[v] = rig->rest[source];
             for (std::uint32_t e = rig->row_starts[source]; e < rig->row_starts[source + 1]; ++e)
@@ -204,16 +193,17 @@ std::optional<std::uint32_t> only_material(const Geometry& geometry, const std::
 
 // An eyeball of a single material is wet. Without a picture it has no iris of its own: its vertices get their direction
 // as seen from its centre, so that one can be drawn.
-void add_eye(Geometry& geometry, const Scene& scene, const Movement& movement, const Eyeball& eyeball) {
-    std::vector<bool> in_rig(vertex_count(*movement.rig), false), on_eyeball(geometry.positions.size(), false);
+void add_eye(Geometry& geometry, const Scene& scene, const Rig& rig, std::span<const std::uint32_t> sources,
+             const Eyeball& eyeball) {
+    std::vector<bool> in_rig(vertex_count(rig), false), on_eyeball(geometry.positions.size(), false);
     for (const std::uint32_t v : eyeball.vertices) in_rig[v] = true;
-    for (std::size_t v = 0; v < on_eyeball.size(); ++v) on_eyeball[v] = in_rig[source_of(movement, v)];
+    for (std::size_t v = 0; v < on_eyeball.size(); ++v) on_eyeball[v] = in_rig[sources[v]];
     const auto material = only_material(geometry, on_eyeball);
     if (!material) return;
     for (Piece& piece : geometry.pieces)
         if (piece.material == *material && piece.vertex_count > 0 && on_eyeball[piece.first_vertex]) piece.wet = true;
     if (scene.materials[*material].colour_picture) return;
-    Vec3 axis = eyeball.point ? movement.rig->points[*eyeball.point].position - eyeball.centre : Vec3{0, 0, 1};
+    Vec3 axis = eyeball.point ? rig.points[*eyeball.point].position - eyeball.centre : Vec3{0, 0, 1};
     if (!(length(axis) > 0)) axis = {0, 0, 1};
     const Vec3 z = axis / length(axis);
     const Vec3 across = cross(Vec3{0, 1, 0}, z);
@@ -228,6 +218,18 @@ void add_eye(Geometry& geometry, const Scene& scene, const Movement& movement, c
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> mesh_vertices(const Scene& scene) {
+    std::vector<std::uint32_t> list;
+    for (const Surface& surface : scene.surfaces) {
+        list.insert(list.end(), surface.mesh_vertices.begin(), surface.mesh_vertices.end());
+        if (!surface.mesh_vertices.empty()) continue;
+        const std::uint32_t next = list.empty() ? 0 : list.back() + 1;
+        list.resize(list.size() + surface.positions.size());
+        std::iota(list.end() - static_cast<std::ptrdiff_t>(surface.positions.size()), list.end(), next);
+    }
+    return list;
+}
 
 SceneTables tables_of(const Scene& scene) {
     SceneTables tables;
@@ -279,10 +281,11 @@ Geometry geometry_of(const Scene& scene, const Movement& movement) {
     }
     geometry.hands.assign(geometry.positions.size(), 1.0F);
     require_triangles(geometry);
-    check_sizes(geometry, movement);
-    add_movement(geometry, movement);
+    const std::vector<std::uint32_t> sources = mesh_vertices(scene);
+    check_sources(movement, sources);
+    add_movement(geometry, movement, sources);
     if (movement.rig != nullptr) {
-        for (const Eyeball& eyeball : movement.rig->eyeballs) add_eye(geometry, scene, movement, eyeball);
+        for (const Eyeball& eyeball : movement.rig->eyeballs) add_eye(geometry, scene, *movement.rig, sources, eyeball);
         if (!movement.rig->points.empty()) geometry.millimetre = eye_distance(movement.rig->points) / 63;
     }
     add_slopes(geometry);

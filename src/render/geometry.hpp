@@ -49,6 +49,9 @@ struct Geometry {
     double millimetre = 0;  ///< in the model's unit; 0: not known
 };
 
+/// The number in the file's mesh of every vertex of the scene's surfaces, in order.
+std::vector<std::uint32_t> mesh_vertices(const Scene& scene);
+
 /// Where the tables of a scene without a Movement begin: joints are the nodes, then each skin's joints; amounts are
 /// each node's morph targets.
 struct SceneTables {

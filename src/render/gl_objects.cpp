@@ -164,11 +164,16 @@ void bind_texture(int unit, GLuint texture) {
     glBindTexture(GL_TEXTURE_2D, texture);
 }
 
+void forget_gl_errors() {
+    // A driver that was lost reports without end.
+    for (int i = 0; i < 100 && glGetError() != GL_NO_ERROR; ++i) {
+    }
+}
+
 void check_gl(const char* doing) {
     const GLenum first = glGetError();
     if (first == GL_NO_ERROR) return;
-    while (glGetError() != GL_NO_ERROR) {
-    }
+    forget_gl_errors();
     if (first == GL_OUT_OF_MEMORY)
         throw Error(fmt::format("render: expected memory for {}, found that the driver has none left", doing));
     throw Error(fmt::format("render: expected the driver to manage {}, found its error {:#x}", doing, first));

@@ -91,5 +91,6 @@ void bind_texture(int unit, GLuint texture);
 
 /// Throws Error if the driver reported one since the last call: in practice that its memory is full.
 void check_gl(const char* doing);
+void forget_gl_errors();
 
 }  // namespace mien

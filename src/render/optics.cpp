@@ -113,7 +113,8 @@ std::vector<Lamp> lamps_of(const Look& look, const Camera& camera) {
         const Vec3 side = cross(studio.up, lamp.direction);
         const Vec3 across = length(side) > 1e-6 ? side / length(side) : studio.right;
         const double half = std::tan(light.half_size * std::numbers::pi / 180);
-        lamp.across = half * across;
+        // Lamps that mirror each other have places that mirror each other.
+        lamp.across = (light.direction.x < 0 ? -half : half) * across;
         lamp.upward = half * cross(lamp.direction, across);
         lamp.light = look.exposure * colour(light.colour);
         lamps.push_back(lamp);
@@ -138,12 +139,15 @@ std::vector<Pass> passes_of(const Look& look, const Camera& camera, std::span<co
         }
     }
     for (std::size_t i = 0; i < dome; ++i) {
-        const double y = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(dome);
-        const double across = std::sqrt(1 - y * y), angle = golden_angle * static_cast<double>(i);
+        // Each place and its mirror image: faces are nearly symmetric, and so should their shadows be.
+        const auto pair = static_cast<double>(i / 2);
+        const double side = i % 2 == 0 ? 1 : -1;
+        const double y = 1 - (2 * pair + 1) / static_cast<double>((dome + 1) / 2);
+        const double across = std::sqrt(1 - y * y), angle = golden_angle * pair;
         const double high = 0.5 + 0.5 * y, share = high * high * (3 - 2 * high);
         const Vec3 light = look.exposure * (colour(look.ground) + share * (colour(look.sky) - colour(look.ground)));
         passes.push_back({-1,
-                          in_studio(studio, {across * std::cos(angle), y, across * std::sin(angle)}),
+                          in_studio(studio, {side * across * std::cos(angle), y, across * std::sin(angle)}),
                           4.0 / static_cast<double>(dome) * light,
                           {}});
     }

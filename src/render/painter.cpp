@@ -354,7 +354,6 @@ void Painter::draw_pass(const Shot& shot, const Pass& pass, const Matrix& view, 
     deferred_.use();
     set_room(deferred_, shot.camera, shot.look);
     set_rays(deferred_, shot.camera, pass.shift);
-    deferred_.set("path", static_cast<float>(scatter_path(*shot.models.front())));
     // The covering triangle lies at the far end: only where something is nearer, pixels are worked out.
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);

@@ -31,14 +31,21 @@ uniform sampler2D shadow_map;
 uniform mat4 shadow;
 uniform vec3 shadow_size;  // of a texel, of the whole depth, in the scene's unit; of a texel in the map
 uniform float grain;
-uniform float path;  // how far red light goes in what scatters all of it
+)";
 
+const char* const surface_facts = R"(
 struct Surface {
-    vec3 diffuse, reflect, n, coat;  // coat: the normal of the wet layer
-    vec3 scatter;
-    float alpha, rough, wetness;
-    vec3 glow;
+    vec3 base, n, coat;  // coat: the normal of the wet layer
+    vec3 scatter, glow;
+    float alpha, metal, rough, wetness;
+    float path;             // how far red light goes in what scatters all of it
+    vec3 diffuse, reflect;  // parts of the base colour
 };
+// Metal mirrors its colour and nothing else; other matter mirrors as much as its refraction makes it, 1.5 or skin's 1.4.
+void part(inout Surface s) {
+    s.diffuse = s.base * (1.0 - s.metal);
+    s.reflect = mix(vec3(s.scatter.r > 0.01 ? 0.028 : 0.04), s.base, s.metal);
+}
 )";
 
 const char* const material_declarations = R"(
@@ -89,14 +96,14 @@ void paint_eye(inout Surface s) {
     iris = mix(vec3(0.004), iris, smoothstep(0.165, 0.195, r));
     vec3 white = mix(vec3(0.80, 0.76, 0.73), vec3(0.72, 0.45, 0.40), 0.75 * smoothstep(0.62, 1.05, r));
     float is_white = smoothstep(0.465, 0.52, r);
-    s.diffuse = mix(iris, white, is_white);
+    s.base = mix(iris, white, is_white);
+    s.metal = 0.0;
     s.scatter = vec3(0.5, 0.3, 0.25) * is_white;
     mat2x3 d = directions(e.xy, s.n);
     vec3 outwards = d * e.xy;
     float bulge = 1.0 - smoothstep(0.40, 0.56, r);
     s.coat = normalize(s.n + 0.55 * bulge * outwards);
     s.n = normalize(s.n - 0.9 * (1.0 - is_white) * outwards);
-    s.reflect = vec3(0.0);
     s.rough = 0.5;
     s.wetness = 1.0;
 }
@@ -114,9 +121,8 @@ Surface surface() {
     if (pictures.y > 0.0) mr *= texture(roughness_picture, uv).gb;
     s.rough = clamp(mr.x, 0.05, 1.0);
     s.scatter = scatter;
-    float skin = step(0.01, scatter.r);
-    s.diffuse = base.rgb * (1.0 - mr.y);
-    s.reflect = mix(vec3(mix(0.04, 0.028, skin)), base.rgb, mr.y);
+    s.base = base.rgb;
+    s.metal = mr.y;
     s.glow = emission;
     if (pictures.w > 0.0) s.glow *= texture(emission_picture, uv).rgb;
     s.n = normalize(normal) * (gl_FrontFacing ? 1.0 : -1.0);
@@ -127,15 +133,19 @@ Surface surface() {
         mat2x3 d = directions(uv, s.n);
         s.n = normalize(s.n * m.z + normal_scale * (d[0] * m.x - d[1] * m.y));
     }
-    if (dot(eye, eye) > 0.25) paint_eye(s);
+    bool is_eye = dot(eye, eye) > 0.25;
+    if (is_eye) paint_eye(s);
     if (painted && !isnan(value)) {
         float share = clamp((value - scale_ends.x) / (scale_ends.y - scale_ends.x), 0.0, 1.0);
-        s.diffuse = from_srgb(texture(scale, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb);
-        s.reflect = vec3(0.02);
+        s.base = from_srgb(texture(scale, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb);
+        s.metal = 0.0;
         s.rough = 0.7;
         s.scatter = vec3(0.0);
         s.wetness = 0.0;
+        is_eye = false;
     }
+    part(s);
+    if (is_eye) s.reflect = vec3(0.0);  // under its tears
     return s;
 }
 )";
@@ -221,16 +231,16 @@ vec3 developed(vec3 c) { return to_srgb(film(c)); }
 const char* const full_light = R"(
 // How much of the light arrives, per channel: all, none, or what came through.
 vec3 arriving(Surface s, vec3 place) {
-    vec4 at = shadow * vec4(place + s.n * max(1.5 * shadow_size.x, 0.12 * path), 1.0);
+    vec4 at = shadow * vec4(place + s.n * max(1.5 * shadow_size.x, 0.12 * s.path), 1.0);
     float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))) + grain);
     // About a millimetre, so that the few places on a lamp leave no steps.
-    float reach_of_arm = clamp(0.3 * path / shadow_size.x, 2.0, 9.0);
+    float reach_of_arm = clamp(0.3 * s.path / shadow_size.x, 2.0, 9.0);
     vec2 arm = reach_of_arm * shadow_size.z * vec2(cos(turn), sin(turn));
-    vec3 reach = max(path * s.scatter, 1e-6);
+    vec3 reach = max(s.path * s.scatter, 1e-6);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         float thick = (at.z - texture(shadow_map, at.xy + arm).r) * shadow_size.y;
-        sum += thick < max(shadow_size.x, 0.06 * path) ? vec3(1.0) : exp(-thick / reach);
+        sum += thick < max(shadow_size.x, 0.06 * s.path) ? vec3(1.0) : exp(-thick / reach);
         arm = vec2(-arm.y, arm.x) * 0.8;
     }
     return 0.25 * sum;
@@ -248,25 +258,28 @@ vec3 developed(vec3 c) { return c; }
 
 const char* const surface_main = R"(
 out vec4 shown;
+uniform float path;
 void main() {
     Surface s = surface();
+    s.path = path;
     vec3 c = unlit ? shown_as_it_is(s.diffuse) * s.alpha : developed(lit(s, normalize(camera - position), position));
     shown = vec4(c, s.alpha);
 }
 )";
 
 const char* const facts_main = R"(
-layout(location = 0) out vec4 base_fact;     // colour as its root, metal
+layout(location = 0) out vec4 base_fact;     // the root of the colour, and metal
 layout(location = 1) out vec4 normal_fact;   // and roughness
 layout(location = 2) out vec4 scatter_fact;  // and 1: there is a surface
-layout(location = 3) out vec4 depth_fact;
+layout(location = 3) out vec2 depth_fact;    // and how far light goes in what scatters it
 uniform vec3 camera, forwards;
+uniform float path;
 void main() {
     Surface s = surface();
-    base_fact = vec4(sqrt(s.diffuse), 1.0);
+    base_fact = vec4(sqrt(s.base), s.metal);
     normal_fact = vec4(s.n, s.rough);
     scatter_fact = vec4(s.scatter, 1.0);
-    depth_fact = vec4(dot(position - camera, forwards), s.reflect);
+    depth_fact = vec2(dot(position - camera, forwards), path);
 }
 )";
 
@@ -278,17 +291,19 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 scattered = texelFetch(scatter_facts, pixel, 0);
     vec4 base = texelFetch(base_facts, pixel, 0), turned = texelFetch(normal_facts, pixel, 0);
-    vec4 depth = texelFetch(depth_facts, pixel, 0);
+    vec2 depth = texelFetch(depth_facts, pixel, 0).xy;
     vec3 to = ray + gl_FragCoord.x * ray_x + gl_FragCoord.y * ray_y;
     Surface s;
-    s.diffuse = base.rgb * base.rgb;
-    s.reflect = depth.yzw;
+    s.base = base.rgb * base.rgb;
+    s.metal = base.a;
+    s.path = depth.y;
     s.n = s.coat = turned.xyz;
     s.rough = turned.w;
     s.scatter = scattered.rgb;
     s.alpha = 1.0;
     s.wetness = 0.0;
     s.glow = vec3(0.0);
+    part(s);
     shown = scattered.a > 0.0 ? vec4(lit(s, normalize(-to), camera + depth.x * to), 1.0) : vec4(0.0);
 }
 )";
@@ -311,18 +326,20 @@ void main() {
     vec4 at = place * vec4(posed_position, 1.0);
     vec3 v = normalize(camera - at.xyz);
     Surface s;
-    s.diffuse = vec3(1.0 - metallic);
+    s.base = colour.rgb;
+    s.metal = metallic;
     s.n = s.coat = normalize(mat3(turn) * posed_normal);
     if (double_sided && dot(s.n, v) < -0.2) s.n = -s.n;
     s.rough = clamp(roughness, 0.05, 1.0);
-    s.reflect = mix(vec3(scatter.r > 0.01 ? 0.028 : 0.04), colour.rgb, metallic);
     s.scatter = scatter;
     s.alpha = 1.0;
     s.wetness = 0.0;
-    diffuse = s.diffuse * mix(ground, sky, 0.5 + 0.33 * s.n.y);
+    part(s);
+    float kept = 1.0 - metallic;
+    diffuse = kept * mix(ground, sky, 0.5 + 0.33 * s.n.y);
     reflected = room_reflection(s, v);
     for (int i = 0; i < lamps; ++i) {
-        diffuse += s.diffuse * light[i] * wrapped(dot(s.n, lamp[i]), scatter);
+        diffuse += kept * light[i] * wrapped(dot(s.n, lamp[i]), scatter);
         reflected += light[i] * reflection(i, s, v);
     }
     uv = corner_uv;
@@ -385,22 +402,20 @@ void main() {
 }
 
 std::string surface_fragment(bool full) {
-    return version + precisions + light_declarations + material_declarations + film + material + lobes +
+    return version + precisions + light_declarations + surface_facts + material_declarations + film + material + lobes +
            (full ? full_light : draft_light) + surface_main;
 }
 
 std::string facts_fragment() {
-    return version + precisions +
-           "struct Surface { vec3 diffuse, reflect, n, coat, scatter; float alpha, rough, wetness; vec3 glow; };" +
-           material_declarations + film + material + facts_main;
+    return version + precisions + surface_facts + material_declarations + film + material + facts_main;
 }
 
 std::string deferred_fragment() {
-    return version + precisions + light_declarations + film + lobes + full_light + deferred_main;
+    return version + precisions + light_declarations + surface_facts + film + lobes + full_light + deferred_main;
 }
 
 std::string quick_lit_vertex() {
-    return version + precisions + light_declarations + lobes + quick_vertex;
+    return version + precisions + light_declarations + surface_facts + lobes + quick_vertex;
 }
 
 std::string quick_lit_fragment() {

@@ -48,9 +48,10 @@ GlName framebuffer() {
 
 void require_complete(const char* what) {
     const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(fmt::format("render: expected a driver that can draw into {}, found one that cannot ({:#x})", what,
-                                status));
+    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+    forget_gl_errors();
+    throw Error(
+        fmt::format("render: expected a driver that can draw into {}, found one that cannot ({:#x})", what, status));
 }
 
 }  // namespace
@@ -58,6 +59,12 @@ void require_complete(const char* what) {
 Targets::Targets(std::uint32_t width, std::uint32_t height)
     : width_(static_cast<GLsizei>(width)), height_(static_cast<GLsizei>(height)) {
     GLint most = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+    if (std::max(width, height) > static_cast<std::uint32_t>(most))
+        throw Error(
+            fmt::format("render: expected a picture of at most {} pixels a side, which is what this driver draws, "
+                        "found {} x {}",
+                        most, width, height));
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     const GLsizei count = std::min(most, 4);
     draft_ = framebuffer();
@@ -80,7 +87,7 @@ void Targets::make_full() {
     require_complete("shadow maps");
     depth_ = samples(GL_DEPTH_COMPONENT24, width_, height_, 0);
     facts_ = framebuffer();
-    constexpr std::array<GLenum, 4> formats{GL_RGBA8, GL_RGBA16F, GL_RGBA8, GL_RGBA32F};
+    constexpr std::array<GLenum, 4> formats{GL_RGBA8, GL_RGBA16F, GL_RGBA8, GL_RG32F};
     std::array<GLenum, 4> places{};
     for (std::size_t i = 0; i < formats.size(); ++i) {
         facts_pictures_[i] = picture(formats[i], width_, height_);

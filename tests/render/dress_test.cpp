@@ -6,12 +6,8 @@
 #include <array>
 #include <gmock/gmock.h>
 
-#include "shapes.hpp"
-
 namespace mien {
 namespace {
-
-using testing::ElementsAre;
 
 Scene scene_of_names(const std::vector<std::string>& names) {
     Scene scene;
@@ -40,6 +36,17 @@ TEST(Dress, PlainSurfacesAreDressedByTheirName) {
     EXPECT_EQ(worn(scene, 5).scatter, worn(scene, 0).scatter) << "a lid is skin";
 }
 
+TEST(Dress, PlainIsWhatReadersGiveWhereAFileHasNoMaterial) {
+    for (const float grey : {0.8F, 1.0F}) {
+        Scene scene = scene_of_names({"tongue"});
+        scene.materials[0].name = "plain";
+        scene.materials[0].colour = {grey, grey, grey, 1};
+        scene.materials[0].roughness = 0.7F;
+        dress(scene);
+        EXPECT_GT(worn(scene, 0).colour[0], 2 * worn(scene, 0).colour[1]);
+    }
+}
+
 TEST(Dress, AMaterialThatSaysWhatItIsStaysAsItIs) {
     Scene scene = scene_of_names({"hat"});
     scene.materials[0].colour = {0.1F, 0.2F, 0.9F, 1};
@@ -62,7 +69,7 @@ TEST(Dress, LightTravelsUnderWhatIsCalledSkinAndUnderWhatTheRigMovesMost) {
     rig.row_starts = {0, 0, 0, 0, 0, 0, 0, 1, 2, 3};  // the third surface moves
     rig.row_points = {0, 0, 0};
     rig.weights.resize(3);
-    dress(scene, {&rig, {}, {}});
+    dress(scene, &rig);
     EXPECT_GT(scene.materials[0].scatter[0], 0);
     EXPECT_EQ(scene.materials[1].scatter[0], 0);
     EXPECT_GT(scene.materials[2].scatter[0], 0);
@@ -82,7 +89,7 @@ TEST(Dress, AnEyeballOfTheRigIsAnEyeWhateverItsName) {
     rig.rest.resize(3);
     rig.row_starts = {0, 0, 0, 0};
     rig.eyeballs = {{"eye", {0, 1, 2}, {}, {}}};
-    dress(scene, {&rig, {}, {}});
+    dress(scene, &rig);
     EXPECT_LT(worn(scene, 0).roughness, 0.3F);
 }
 

@@ -59,7 +59,7 @@ std::vector<Vec3f> expected(const Rig& rig, std::span<const Vec3f> moves) {
 TEST_F(Moving, VerticesFollowTwelveSignedConstrainedPoints) {
     const Mesh mesh = ball();
     const Rig rig = wild_rig(mesh.positions, 37, 12);
-    const ModelId model = device().upload(stage::scene(mesh), {&rig, {}, {}});
+    const ModelId model = device().upload(stage::scene(mesh), {&rig, {}});
     Numbers number;
     for (int frame = 0; frame < 3; ++frame) {
         std::vector<Vec3f> moves;
@@ -80,7 +80,7 @@ TEST_F(Moving, AnEyeballTurnsAboutItsCentreWhenItsPupilMoves) {
     rig.points = {{"3.5", static_cast<std::uint32_t>(mesh.positions.size() - 1), pupil, {}, 0}};
     rig.eyeballs = {{"eye", {}, {3, 0, 0}, 0}};
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) rig.eyeballs[0].vertices.push_back(v);
-    const ModelId model = device().upload(stage::scene(mesh), {&rig, {}, {}});
+    const ModelId model = device().upload(stage::scene(mesh), {&rig, {}});
     // From straight ahead to 30 degrees towards +x: every vertex turns by that about the y axis.
     const double s = 0.5, c = std::sqrt(0.75);
     device().pose(model, std::array{to_float(Vec3{3 + s, 0, c} - pupil)});
@@ -107,7 +107,7 @@ TEST_F(Moving, ShapesAndPointsAddUp) {
         }
     std::vector<Vec3f> moves(rig.points.size());
     for (Vec3f& move : moves) move = 0.3F * number.vec();
-    const ModelId model = device().upload(stage::scene(mesh), {&rig, shapes, {}});
+    const ModelId model = device().upload(stage::scene(mesh), {&rig, shapes});
     device().pose(model, moves, std::array{0.5F, -1.25F});
     std::vector<Vec3f> sum = expected(rig, moves);
     for (std::size_t v = 0; v < sum.size(); ++v) sum[v] += delta[v];
@@ -129,8 +129,8 @@ TEST_F(Moving, VerticesOfTheSceneFindTheirsInTheRig) {
     scene.surfaces.emplace_back();
     scene.surfaces[0].positions.resize(4);
     scene.surfaces[0].triangles = {0, 1, 2, 0, 3, 2};
-    const std::array<std::uint32_t, 4> vertices{2, 0, 1, 0};
-    const ModelId model = device().upload(scene, {&rig, {}, vertices});
+    scene.surfaces[0].mesh_vertices = {2, 0, 1, 0};
+    const ModelId model = device().upload(scene, {&rig, {}});
     device().pose(model, std::array{Vec3f{0, 0, 5}});
     EXPECT_THAT(positions(model), testing::ElementsAre(Vec3f{0, 1, 0}, Vec3f{0, 0, 5}, Vec3f{1, 0, 0}, Vec3f{0, 0, 5}));
     device().remove(model);
@@ -252,7 +252,7 @@ TEST_F(Moving, NormalsOfALinearMotionByPointsAreThoseOfTheInverseTranspose) {
         rig.weights.insert(rig.weights.end(), {{p.x, p.x, p.x}, {p.y, p.y, p.y}, {p.z, p.z, p.z}});
         rig.row_starts.push_back(static_cast<std::uint32_t>(rig.row_points.size()));
     }
-    const ModelId model = device().upload(scene, {&rig, {}, {}});
+    const ModelId model = device().upload(scene, {&rig, {}});
     EXPECT_LT(stage::farthest(stage::normals(model), scene.surfaces[0].normals), 1e-6) << "at rest the file's";
     std::array<Vec3f, 3> moves;
     for (std::size_t k = 0; k < 3; ++k) moves[k] = to_float(sheared.columns[k] - Affine{}.columns[k]);
@@ -381,7 +381,7 @@ TEST_F(Moving, LipsThatTouchAtRestKeepTheirOwnNormals) {
 TEST_F(Moving, AModelAndItsCopyHaveAPoseEach) {
     const Mesh mesh = ball();
     const Rig rig = wild_rig(mesh.positions, 9, 4);
-    const ModelId model = device().upload(stage::scene(mesh), {&rig, {}, {}});
+    const ModelId model = device().upload(stage::scene(mesh), {&rig, {}});
     const ModelId copy = device().copy(model);
     const std::vector<Vec3f> moves(9, {0.1F, 0.2F, 0.3F});
     device().pose(copy, moves);
@@ -403,7 +403,7 @@ TEST_F(Moving, AtRestEveryVertexIsWhereTheSceneHasIt) {
     EXPECT_LT(stage::farthest(positions(model), rest), 1e-6);
     // The same scene with shapes from elsewhere rests there too.
     const std::vector<MorphTarget> shapes{{"none", {}, {}}};
-    const ModelId other = device().upload(scene, {nullptr, shapes, {}});
+    const ModelId other = device().upload(scene, {nullptr, shapes});
     EXPECT_LT(stage::farthest(positions(other), rest), 1e-6);
     for (const ModelId id : {model, other}) device().remove(id);
 }
@@ -412,14 +412,16 @@ TEST_F(Moving, PosesOfTheWrongSizeAreRefused) {
     const Mesh mesh = ball();
     const Rig rig = wild_rig(mesh.positions, 9, 4);
     const Scene scene = stage::scene(mesh);
-    const ModelId moved = device().upload(scene, {&rig, {}, {}}), played = device().upload(scene);
+    const ModelId moved = device().upload(scene, {&rig, {}}), played = device().upload(scene);
     EXPECT_THROW(device().pose(moved, std::vector<Vec3f>(8)), Error);
     EXPECT_THROW(device().pose(moved, {}, std::array{1.0F}), Error);
     EXPECT_THROW(device().pose(moved, rest_pose(scene)), Error);
     EXPECT_THROW(device().pose(played, std::vector<Vec3f>(9)), Error);
     EXPECT_THROW(device().pose(played, ScenePose{}), Error);
     EXPECT_THROW(device().pose(played + 1000, rest_pose(scene)), Error);
-    EXPECT_THROW(device().upload(stage::square(), {&rig, {}, {}}), Error);
+    Rig short_rig = rig;
+    short_rig.rest.pop_back();
+    EXPECT_THROW(device().upload(scene, {&short_rig, {}}), Error);
     for (const ModelId id : {moved, played}) device().remove(id);
 }
 

@@ -25,12 +25,12 @@ struct RendererOptions {
 };
 
 /// What moves a model instead of its scene's joints and morph targets: feature points, shapes, or both at once.
-/// Everything is in the scene's space at rest; the scene's own animation does not play.
+/// Everything is in the scene's space at rest; the scene's own animation does not play. Rows of the rig and vertices of
+/// the shapes are those of the mesh in the same file (`Surface::mesh_vertices`; where a surface has none, its vertices
+/// count on from those of the surface before).
 struct Movement {
     const Rig* rig = nullptr;             ///< weights of any sign, any number per vertex; eyeballs turn
     std::span<const MorphTarget> shapes;  ///< moved by weights
-    /// For each vertex of the scene's surfaces, in order, its number in the rig and the shapes. Empty: the same number.
-    std::span<const std::uint32_t> vertices;
 };
 
 /// Names a model in the renderer that made it.
@@ -68,7 +68,7 @@ public:
     /// Throws Error if the scene has no triangle or is larger than the driver can take.
     ModelId upload(const Scene& scene);
     /// Uploads a scene that feature points or shapes move. A rig also says what is skin and what an eye: see `dress`.
-    /// Throws Error, also if the numbers of vertices differ.
+    /// Throws Error, also if the rig has no row for a vertex.
     ModelId upload(const Scene& scene, const Movement& movement);
     /// Another of the same, with a pose, a place and paint of its own; the uploaded data are shared.
     ModelId copy(ModelId model);
