@@ -33,6 +33,7 @@ std::vector<std::string> telling_points(const Rig& rig) {
 Picture rig_picture(const std::string& name, const Mesh& mesh, const Rig& rig) {
     LookFlags look;
     look.points = true;
+    look.close_up = "points";
     look.passes = 24;
     Stage stage(look, {}, {360, 440});
     stage.enter(actor_of(name, mesh, rig));
@@ -44,6 +45,7 @@ Picture rig_picture(const std::string& name, const Mesh& mesh, const Rig& rig) {
 
     look.view = View::front;
     look.points = false;
+    look.close_up.clear();
     stage.look(look);
     for (const std::string& point : telling_points(rig)) {
         stage.show_weights(point);

@@ -54,6 +54,13 @@ Box around(const CloseUp& wanted, const std::vector<NamedPlace>& places, double 
     return {sum / count - Vec3{r, r, 0}, sum / count + Vec3{r, r, 0}};
 }
 
+// The box round the points; of the whole head where there are none.
+Box box_of(const std::vector<NamedPlace>& places, const Box& whole) {
+    std::vector<Vec3> points;
+    for (const NamedPlace& place : places) points.push_back(place.place);
+    return points.empty() ? whole : bounding_box(points);
+}
+
 Picture with_points(Picture picture, const std::vector<NamedPlace>& places, const Camera& camera) {
     std::vector<Vec2f> at;
     std::vector<std::string> names;
@@ -85,7 +92,7 @@ void add_look_flags(CLI::App& verb, LookFlags& flags) {
     verb.add_option("--view", flags.view, "where the camera stands")
         ->transform(CLI::CheckedTransformer(views).description("front, side or three-quarter"))
         ->default_str("front");
-    verb.add_option("--close-up", flags.close_up, "look at eyes, mouth or a feature point from near");
+    verb.add_option("--close-up", flags.close_up, "look at eyes, mouth, all points or one feature point from near");
     verb.add_option("--quality", flags.quality, "full: soft shadows and light under the skin; draft: fast")
         ->transform(CLI::CheckedTransformer(qualities).description("draft or full"))
         ->default_str("full");
@@ -101,6 +108,8 @@ Stage::Stage(const LookFlags& look, const PaintFlags& paint, Size size)
 
 Camera Stage::camera(const Actor& actor, ModelId model) const {
     const Box box = renderer_.rest_box(model);
+    if (flags_.close_up == "points")
+        return frame(box_of(points_at(actor, 0), box), flags_.view, size_.width, size_.height, 0.12);
     if (flags_.close_up.empty()) return frame(box, flags_.view, size_.width, size_.height);
     const Box near = around(close_up(flags_.close_up), points_at(actor, 0), box.high.y - box.low.y, actor.name);
     return frame(near, flags_.view, size_.width, size_.height, 0);

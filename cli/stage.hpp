@@ -30,7 +30,7 @@ Size size_of(const std::string& text, Size wanted);
 struct LookFlags {
     std::string size;  ///< "640x480"; empty: as the verb likes
     View view = View::front;
-    std::string close_up;  ///< a feature point, "eyes" or "mouth"; empty: the whole head
+    std::string close_up;  ///< a feature point, "eyes", "mouth" or "points"; empty: the whole head
     Quality quality = Quality::full;
     std::uint32_t passes = 0;  ///< of full quality; 0: as the verb likes
     bool wire = false;
