@@ -123,12 +123,14 @@ void measure_cells(std::span<const Picture> pictures, Layout& layout) {
     }
 }
 
-// The number of columns that brings the pictures nearest to 3:2.
+// The number of columns that brings the pictures nearest to 3:2, an empty cell being as bad as a shape that is off by
+// its share.
 std::size_t chosen_columns(std::size_t count, const Layout& layout) {
     const auto distance = [&](std::size_t columns) {
         const std::size_t rows = (count + columns - 1) / columns;
         const auto width = static_cast<double>(columns * layout.cell_width);
-        return std::abs(std::log(width / static_cast<double>(rows * layout.cell_height) / 1.5));
+        const double empty = static_cast<double>(rows * columns - count) / static_cast<double>(count);
+        return std::abs(std::log(width / static_cast<double>(rows * layout.cell_height) / 1.5)) + empty;
     };
     std::size_t best = 1;
     for (std::size_t columns = 2; columns <= count; ++columns)

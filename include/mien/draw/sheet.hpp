@@ -21,9 +21,10 @@ namespace mien {
 // picture; a row keeps room for as many lines as its longest caption has. Pictures that are not opaque show the paper.
 
 struct SheetOptions {
-    std::uint32_t columns = 0;          ///< of a contact sheet; 0 chooses what brings it nearest to the shape 3:2
-    std::string title = {};             ///< above all, in larger, heavier letters
-    std::string note = {};              ///< below the title, in grey: what the sheet shows and how it was made
+    std::uint32_t columns =
+        0;                   ///< of a contact sheet; 0 chooses what brings it near the shape 3:2 with few empty cells
+    std::string title = {};  ///< above all, in larger, heavier letters
+    std::string note = {};   ///< below the title, in grey: what the sheet shows and how it was made
     std::optional<Legend> legend = {};  ///< below all, centred
     std::uint32_t margin = 24;          ///< around all, in pixels
     std::uint32_t gap = 12;             ///< between cells, in pixels
