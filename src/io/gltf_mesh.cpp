@@ -15,6 +15,7 @@
 #include "io/gltf_accessors.hpp"
 #include "io/gltf_codecs.hpp"
 #include "io/gltf_document.hpp"
+#include "io/gltf_instances.hpp"
 #include "io/gltf_json.hpp"
 #include "io/gltf_rest_pose.hpp"
 #include "io/text.hpp"
@@ -183,7 +184,6 @@ void add_faces(Growing& out, const Primitive& primitive) {
     }
 }
 
-// The names of a mesh's targets, each once: what has none is called by its number, and what comes again gets one.
 // The names that exporters leave in the extras of a mesh or, for want of these, of its first primitive.
 const json* given_names(const json& mesh) {
     const json* const owners[]{&mesh, &mesh["primitives"][0]};
@@ -195,6 +195,7 @@ const json* given_names(const json& mesh) {
     return nullptr;
 }
 
+// The names of a mesh's targets, each once: what has none is called by its number, and what comes again gets one.
 std::vector<std::string> target_names(const json& mesh, std::size_t targets) {
     const json* given = given_names(mesh);
     std::vector<std::string> names;
@@ -300,6 +301,7 @@ void spend_vertices(Growing& out) {
 Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     GltfDocument document = load_gltf(bytes, fetch);
     decompress(document);
+    copy_instances(document, (1U << 20U) + 8 * std::uint64_t{bytes.size()});
     check_accessors(document);
     Growing out{document, {}, budget_of(document.binary.size()), false, {}};
     spend_vertices(out);
