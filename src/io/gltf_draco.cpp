@@ -222,7 +222,7 @@ void unpack(Unpacking& out, json& primitive, const std::string& place) {
     object_member(primitive, "attributes", place);
     const json ids = object_member(primitive["extensions"][name], "attributes", pointer);
     for (const auto& [semantic, id] : ids.items()) {
-        const std::string where = pointer + "/attributes/" + semantic;
+        const std::string where = fmt::format("{}/attributes/{}", pointer, semantic);
         if (!primitive["attributes"].contains(semantic)) fail_at(where, "an attribute of the primitive", semantic);
         const std::uint64_t unique = whole_number(id, where);
         fill(out, primitive["attributes"][semantic], unique, where,
