@@ -84,7 +84,7 @@ void check_output(const fs::path& output, const std::vector<fs::path>& inputs, c
 }
 
 Skin skin_for(Call& call, const OutputFlags& flags, const Mesh& mesh, const Rig& rig, const Take& take) {
-    const Skin skin = make_skin(rig, take, flags.skin);
+    Skin skin = make_skin(rig, take, flags.skin);
     Report& about = call.report["influence_cut"];
     about["joints_per_vertex"] = skin.influences;
     report_error(about, skin.mean_error, skin.max_error, height(mesh));

@@ -28,7 +28,7 @@ struct Common {
 struct Call {
     Common flags;
     std::function<void()> work;
-    Report report;
+    Report report = Report::object();
 };
 
 /// A quality gate that the user asked for was not met (exit status 4).

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the mien authors
 
 #include "fuzz.hpp"
+#include "glb_mutator.hpp"
 #include "io/promise.hpp"
 
 #include "mien/io/gltf.hpp"

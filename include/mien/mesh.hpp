@@ -33,8 +33,8 @@ struct MorphTarget {
 };
 
 /// The neutral head as it was read: every vertex of every mesh in the file, in file order (meshes, then primitives,
-/// then vertices; not welded), in the space of the scene (node transforms applied), with polygon faces kept as
-/// polygons.
+/// then vertices, copies of meshes shown again last; not welded), in the space of the scene (node transforms applied),
+/// with polygon faces kept as polygons.
 ///
 /// After a reader returned it, every index is in range, every number is finite and every face has three corners or
 /// more.

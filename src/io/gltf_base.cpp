@@ -50,11 +50,10 @@ void drop_skinning(json& primitive) {
     for (const std::string& name : gone) attributes.erase(name);
 }
 
-void drop_morph_targets(json& mesh) {
-    mesh.erase("weights");
-    if (!mesh.contains("extras") || !mesh["extras"].is_object()) return;
-    mesh["extras"].erase("targetNames");
-    if (mesh["extras"].empty()) mesh.erase("extras");
+void drop_target_names(json& owner) {
+    if (!owner.contains("extras") || !owner["extras"].is_object()) return;
+    owner["extras"].erase("targetNames");
+    if (owner["extras"].empty()) owner.erase("extras");
 }
 
 // What the source does by itself: animations, skins, morph targets.
@@ -66,9 +65,11 @@ void drop_motion(json& root) {
         node.erase("weights");
     }
     for (json& mesh : list_of(root, "meshes")) {
-        drop_morph_targets(mesh);
+        mesh.erase("weights");
+        drop_target_names(mesh);
         for (json& primitive : mesh.at("primitives")) {
             drop_skinning(primitive);
+            drop_target_names(primitive);
             primitive.erase("targets");
         }
     }

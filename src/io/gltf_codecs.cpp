@@ -11,6 +11,7 @@
 #include "io/gltf_accessors.hpp"
 #include "io/gltf_decompress.hpp"
 #include "io/gltf_document.hpp"
+#include "io/gltf_instances.hpp"
 #include "io/gltf_json.hpp"
 #include "io/gltf_unused.hpp"
 
@@ -62,6 +63,7 @@ void decompress(GltfDocument& document) {
 GltfDocument load_plain_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     GltfDocument document = load_gltf(bytes, fetch);
     decompress(document);
+    copy_instances(document, (1U << 20U) + 8 * std::uint64_t{bytes.size()});
     check_accessors(document);
     return document;
 }

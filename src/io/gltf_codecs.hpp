@@ -16,8 +16,8 @@ namespace mien {
 /// and accessors. Throws Error naming the JSON pointer, expected and found.
 void decompress(GltfDocument& document);
 
-/// A glTF, text or binary, as one self-contained document (`load_gltf`) without compression whose accessors all say
-/// something possible.
+/// A glTF, text or binary, as one self-contained document (`load_gltf`) without compression, in which every mesh is
+/// shown once (`copy_instances`) and all accessors say something possible.
 GltfDocument load_plain_gltf(std::span<const std::byte> bytes, const Fetch& fetch);
 
 }  // namespace mien

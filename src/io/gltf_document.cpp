@@ -18,6 +18,7 @@
 #include "io/gltf_json.hpp"
 #include "io/gltf_missing.hpp"
 #include "io/gltf_references.hpp"
+#include "io/gltf_unused.hpp"
 #include "io/gltf_uri.hpp"
 #include "io/json_text.hpp"
 #include "io/text.hpp"
@@ -59,6 +60,7 @@ bool is_supported(std::string_view extension) {
 }
 
 void check_extensions(const json& root) {
+    array_member(root, "extensionsUsed", "");
     const json& required = array_member(root, "extensionsRequired", "");
     for (std::size_t i = 0; i < required.size(); ++i)
         if (!required[i].is_string() || !is_supported(required[i].get_ref<const std::string&>()))
@@ -144,8 +146,9 @@ void move_view(json& view, const std::vector<Place>& places, const std::string& 
     view["byteOffset"] = there ? place.offset + offset : 0;
 }
 
-void move_views(json& views, const std::vector<Place>& places) {
+void move_views(json& views, const std::vector<Place>& places, const std::vector<bool>& skipped) {
     for (std::size_t i = 0; i < views.size(); ++i) {
+        if (skipped[i]) continue;
         json& view = views[i];
         const std::string pointer = fmt::format("/bufferViews/{}", i);
         const bool compressed = object_member(view, "extensions", pointer).contains(meshopt);
@@ -155,6 +158,25 @@ void move_views(json& views, const std::vector<Place>& places) {
         move_view(view, places, pointer);
         if (compressed) move_view(view["extensions"][meshopt], places, pointer + "/extensions/" + meshopt);
     }
+}
+
+// The views of buffers without bytes that nothing uses: they do no harm.
+std::vector<bool> hollow_views(json& root, const std::vector<Place>& places) {
+    std::vector<bool> hollow(element_count(root, "bufferViews"), false);
+    const auto is_absent = [](const Place& place) { return place.state == Place::State::absent; };
+    if (std::none_of(places.begin(), places.end(), is_absent)) return hollow;
+    const std::vector<bool> used = used_views(root);
+    for (std::size_t i = 0; i < hollow.size(); ++i)
+        hollow[i] =
+            !used[i] &&
+            is_absent(places[whole_member(root["bufferViews"][i], "buffer", fmt::format("/bufferViews/{}", i))]);
+    return hollow;
+}
+
+void take_views(json& root, const std::vector<Place>& places) {
+    const std::vector<bool> hollow = hollow_views(root, places);
+    if (!hollow.empty()) move_views(root["bufferViews"], places, hollow);
+    if (std::find(hollow.begin(), hollow.end(), true) != hollow.end()) drop_unused_numbers(root);
 }
 
 // A picture with a uri becomes a buffer view. What is no picture is kept all the same: it does no harm to a mesh.
@@ -217,7 +239,7 @@ GltfDocument load_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     check_references(root);
     Growing out{document.binary, fetch, {}};
     const std::vector<Place> places = place_buffers(out, array_member(root, "buffers", ""));
-    if (root.contains("bufferViews")) move_views(root["bufferViews"], places);
+    take_views(root, places);
     take_pictures(out, document);
     root.erase("buffers");
     if (!document.binary.empty()) root["buffers"] = json::array({{{"byteLength", document.binary.size()}}});

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/gltf_codecs.hpp"
+#include "io/gltf_document.hpp"
 #include "io/gltf_json.hpp"
 #include "io/gltf_primitive.hpp"
 #include "io/gltf_rest_pose.hpp"

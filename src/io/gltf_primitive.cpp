@@ -176,20 +176,32 @@ std::size_t target_count(const GltfDocument& document, std::size_t mesh) {
     return primitives.empty() ? 0 : targets_of(primitives[0], pointer + "/primitives/0");
 }
 
+namespace {
+
+// The names that exporters leave in the extras of a mesh or, for want of these, of its first primitive.
+const json* given_names(const json& mesh) {
+    const json* const owners[]{&mesh, &mesh["primitives"][0]};
+    for (const json* owner : owners) {
+        if (!owner->contains("extras") || !(*owner)["extras"].is_object()) continue;
+        const json& extras = (*owner)["extras"];
+        if (extras.contains("targetNames") && extras["targetNames"].is_array()) return &extras["targetNames"];
+    }
+    return nullptr;
+}
+
+}  // namespace
+
 std::vector<std::string> target_names(const GltfDocument& document, std::size_t number) {
-    const json& mesh = document.json["meshes"][number];
     const std::size_t targets = target_count(document, number);
-    const json* extras = mesh.contains("extras") && mesh["extras"].is_object() ? &mesh["extras"] : nullptr;
-    const json* given = extras != nullptr && extras->contains("targetNames") ? &(*extras)["targetNames"] : nullptr;
+    if (targets == 0) return {};
+    const json* given = given_names(document.json["meshes"][number]);
     std::vector<std::string> names;
     std::set<std::string> taken;
     for (std::size_t t = 0; t < targets; ++t) {
-        const bool named = given != nullptr && given->is_array() && t < given->size() && (*given)[t].is_string();
         std::string name;
-        if (named) (*given)[t].get_to(name);
+        if (given != nullptr && t < given->size() && (*given)[t].is_string()) (*given)[t].get_to(name);
         if (name.empty()) name = fmt::format("morph_{}", t + 1);
-        if (!taken.insert(name).second) name += fmt::format("_{}", t + 1);
-        taken.insert(name);
+        while (!taken.insert(name).second) name += fmt::format("_{}", t + 1);
         names.push_back(std::move(name));
     }
     return names;

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <string>
 #include <string_view>
@@ -35,8 +37,16 @@ json* find(json& object, const char* name) {
     return object.is_object() && found != object.end() ? &*found : nullptr;
 }
 
+// Some exporters write 3.0 where 3 is meant, and numbers that were set in memory may have a sign.
+bool is_whole(const json& value) {
+    if (value.is_number_unsigned()) return true;
+    if (value.is_number_integer()) return value.get<std::int64_t>() >= 0;
+    return value.is_number_float() && value.get<double>() >= 0 && value.get<double>() < 1e15 &&
+           std::floor(value.get<double>()) == value.get<double>();
+}
+
 void add(References& references, json* reference) {
-    if (reference && reference->is_number_unsigned()) references.push_back(reference);
+    if (reference && is_whole(*reference)) references.push_back(reference);
 }
 
 void add_values(References& references, json* object) {
@@ -75,9 +85,8 @@ References accessor_references(json& root) {
     return references;
 }
 
-// Every member "bufferView" outside of extras, at any depth.
-References view_references(json& root) {
-    References references;
+// Every member "bufferView" in a value, at any depth, outside of extras.
+void add_views(References& references, json& root) {
     std::vector<json*> open{&root};
     while (!open.empty()) {
         json& value = *open.back();
@@ -86,18 +95,35 @@ References view_references(json& root) {
         for (auto child = value.begin(); child != value.end() && value.is_structured(); ++child)
             if (child->is_structured() && !(value.is_object() && child.key() == "extras")) open.push_back(&*child);
     }
+}
+
+References view_references(json& root) {
+    References references;
+    add_views(references, root);
     return references;
+}
+
+// Which of `size` elements are referred to.
+std::vector<bool> marks(const References& references, std::size_t size, const char* name) {
+    std::vector<bool> used(size, false);
+    for (const json* reference : references) {
+        const auto number = reference->get<std::size_t>();
+        if (number >= size)
+            throw Error(fmt::format("gltf: expected one of {} {}, found number {}", size, name, number));
+        used[number] = true;
+    }
+    return used;
 }
 
 // Keeps the elements of a list that are referred to, and tells the references their new numbers.
 void keep_used(json& root, const char* name, const References& references) {
     json* list = find(root, name);
     if (!list) return;
-    std::vector<std::size_t> number(list->size(), 0);
-    for (const json* reference : references) number.at(reference->get<std::size_t>()) = 1;
+    const std::vector<bool> used = marks(references, list->size(), name);
+    std::vector<std::size_t> number(used.size(), 0);
     json kept = json::array();
     for (std::size_t i = 0; i < number.size(); ++i) {
-        if (number[i] == 0) continue;
+        if (!used[i]) continue;
         number[i] = kept.size();
         kept.push_back(std::move((*list)[i]));
     }
@@ -126,16 +152,41 @@ void keep_viewed_bytes(GltfDocument& document) {
     document.binary = std::move(kept);
 }
 
+// Whether all that may refer to a number is known here.
+bool refers_in_known_ways(const json& root) {
+    const json used = root.value("extensionsUsed", json::array());
+    return std::all_of(used.begin(), used.end(),
+                       [](const json& name) { return name.is_string() && is_known(name.get<std::string>()); });
+}
+
+std::size_t size_of(json& root, const char* name) {
+    const json* list = find(root, name);
+    return list ? list->size() : 0;
+}
+
 }  // namespace
 
+std::vector<bool> used_views(json& root) {
+    const std::size_t views = size_of(root, "bufferViews");
+    if (!refers_in_known_ways(root)) return std::vector<bool>(views, true);
+    const std::vector<bool> accessors = marks(accessor_references(root), size_of(root, "accessors"), "accessors");
+    References references;
+    for (auto& [name, member] : root.items())
+        if (name != "accessors" && name != "extras") add_views(references, member);
+    for (std::size_t a = 0; a < accessors.size(); ++a)
+        if (accessors[a]) add_views(references, root["accessors"][a]);
+    return marks(references, views, "bufferViews");
+}
+
+void drop_unused_numbers(json& root) {
+    if (!refers_in_known_ways(root)) return;
+    keep_used(root, "accessors", accessor_references(root));
+    keep_used(root, "bufferViews", view_references(root));
+}
+
 void drop_unused_numbers(GltfDocument& document) {
-    const json used = document.json.value("extensionsUsed", json::array());
-    const bool all_known = std::all_of(used.begin(), used.end(), [](const json& name) {
-        return name.is_string() && is_known(name.get<std::string>());
-    });
-    if (!all_known) return;
-    keep_used(document.json, "accessors", accessor_references(document.json));
-    keep_used(document.json, "bufferViews", view_references(document.json));
+    if (!refers_in_known_ways(document.json)) return;
+    drop_unused_numbers(document.json);
     keep_viewed_bytes(document);
 }
 

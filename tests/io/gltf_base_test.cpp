@@ -64,6 +64,7 @@ Mesh source_head(Vec3 scale) {
     primitive["targets"].push_back(json::object());
     primitive["targets"][0]["POSITION"] = target;
     primitive["indices"] = append_indices(file, std::vector<std::uint32_t>{0, 1, 2});
+    primitive["extras"]["targetNames"] = std::vector<std::string>{"smile"};
     json shape = {{"name", "Face"}, {"weights", std::vector<double>{0.5}}};
     shape["extras"] = {{"targetNames", std::vector<std::string>{"smile"}}, {"maker", "someone"}};
     shape["primitives"].push_back(primitive);
@@ -110,6 +111,7 @@ TEST(Base, materials_cameras_nodes_and_extras_survive_and_motion_goes) {
     EXPECT_FALSE(root.contains("animations") || root.contains("skins"));
     EXPECT_FALSE(root["meshes"][0].contains("weights"));
     EXPECT_FALSE(root["meshes"][0]["primitives"][0].contains("targets"));
+    EXPECT_FALSE(root["meshes"][0]["primitives"][0].contains("extras")) << "names of targets that are gone";
     EXPECT_FALSE(attributes(base.document).contains("WEIGHTS_0"));
     EXPECT_THAT(played::numbers(base.document, attributes(base.document)["TEXCOORD_0"]), ElementsAre(0, 0, 1, 0, 0, 1));
     EXPECT_EQ(root["accessors"].size(), 5U) << "positions, normals, tangents, texture coordinates, indices";

@@ -8,6 +8,8 @@
 #include "io/gltf_player.hpp"
 #include "io/gltf_unused.hpp"
 
+#include "mien/error.hpp"
+
 namespace mien {
 namespace {
 
@@ -84,6 +86,22 @@ TEST(Unused, accessors_views_and_bytes_go_and_the_rest_is_renumbered) {
     EXPECT_THAT(played::numbers(document, position), ElementsAre(4, 5, 6));
     const json& view = document.json["bufferViews"][document.json["images"][0]["bufferView"].get<std::size_t>()];
     EXPECT_EQ(document.binary.at(view["byteOffset"].get<std::size_t>()), std::byte{42});
+}
+
+TEST(Unused, numbers_that_are_written_with_a_fraction_of_zero_or_a_sign_refer_as_well) {
+    for (const json& one : {json(1.0), json(std::int64_t{1})}) {
+        GltfDocument document = half_used();
+        json& position = document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+        position = one;
+        drop_unused_numbers(document);
+        EXPECT_THAT(gltf_scene::numbers(document, position.get<std::size_t>()), ElementsAre(4, 5, 6));
+    }
+}
+
+TEST(Unused, a_number_that_an_extension_gives_beyond_the_list_is_refused) {
+    GltfDocument document = half_used();
+    append_object(document, "nodes", {{"extensions", {{"KHR_picture", {{"bufferView", 99U}}}}}});
+    EXPECT_THROW(drop_unused_numbers(document), Error);
 }
 
 TEST(Unused, nothing_goes_when_an_extension_may_number_accessors_in_its_own_way) {

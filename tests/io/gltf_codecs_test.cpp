@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "io/gltf_accessors.hpp"
+#include "io/gltf_text.hpp"
 
 #include "mien/error.hpp"
 #include "mien/io/read.hpp"
@@ -164,6 +167,80 @@ TEST(GltfCodecs, NothingOfTheCompressionIsLeft) {
     decompress(document);
     EXPECT_EQ(document.json.dump().find("EXT_meshopt_compression"), std::string::npos);
     EXPECT_EQ(document.binary.size(), positions().size() * 4 + triangles().size() * 4);
+}
+
+// A triangle as Draco codes it, x further along than the unit triangle.
+std::vector<unsigned char> draco_triangle(float x) {
+    const std::array<std::array<float, 3>, 3> corner{{{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}}};
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(1);
+    const int positions = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    builder.SetAttributeValuesForFace(positions, draco::FaceIndex(0), corner[0].data(), corner[1].data(),
+                                      corner[2].data());
+    draco::Encoder encoder;
+    encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
+    draco::EncoderBuffer bytes;
+    EXPECT_TRUE(encoder.EncodeMeshToBuffer(*builder.Finalize(), &bytes).ok());
+    const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+    return {begin, begin + bytes.size()};
+}
+
+// A primitive of such a triangle in the document: accessors 0 and 1 say what comes out.
+json draco_primitive(GltfDocument& document, float x) {
+    const std::size_t view = gltf_text::add_view(document, draco_triangle(x));
+    if (!document.json.contains("accessors"))
+        document.json["accessors"] = {{{"componentType", 5126U}, {"count", 3U}, {"type", "VEC3"}},
+                                      {{"componentType", 5125U}, {"count", 3U}, {"type", "SCALAR"}}};
+    const json extension{{"bufferView", view}, {"attributes", {{"POSITION", 0U}}}};
+    return {{"attributes", {{"POSITION", 0U}}},
+            {"indices", 1U},
+            {"extensions", {{"KHR_draco_mesh_compression", extension}}}};
+}
+
+TEST(GltfCodecs, ADracoMeshThatCallsItselfAStripOrAFanIsAListOfTriangles) {
+    for (const unsigned mode : {4U, 5U, 6U}) {
+        GltfDocument document = gltf_text::empty();
+        json primitive = draco_primitive(document, 0);
+        primitive["mode"] = mode;
+        document.json["meshes"].push_back({{"primitives", json::array({primitive})}});
+        const Mesh mesh = gltf_text::read(document);
+        EXPECT_EQ(face_count(mesh), 1U) << mode;
+        EXPECT_THAT(mesh.face_vertices, testing::UnorderedElementsAre(0, 1, 2)) << mode;
+    }
+}
+
+TEST(GltfCodecs, ADracoMeshThatManyPrimitivesNameIsUnpackedOnce) {
+    GltfDocument document = gltf_text::empty();
+    const json primitive = draco_primitive(document, 0);
+    document.json["meshes"].push_back({{"primitives", json::array()}});
+    for (int i = 0; i < 1000; ++i) document.json["meshes"][0]["primitives"].push_back(primitive);
+    EXPECT_EQ(refusal(document), "accepted");
+    decompress(document);
+    EXPECT_EQ(document.json["accessors"].size(), 2U);
+    EXPECT_EQ(document.binary.size(), 3U * 12 + 3 * 4);
+}
+
+TEST(GltfCodecs, TwoDracoMeshesWithOneAccessorStayTwo) {
+    GltfDocument document = gltf_text::empty();
+    const json first = draco_primitive(document, 0), second = draco_primitive(document, 5);
+    document.json["meshes"].push_back({{"primitives", json::array({first, second})}});
+    const Mesh mesh = gltf_text::read(document);
+    ASSERT_EQ(vertex_count(mesh), 6U);
+    for (std::size_t v = 0; v < 3; ++v) {
+        EXPECT_LE(mesh.positions[v].x, 1) << v;
+        EXPECT_GE(mesh.positions[v + 3].x, 5) << v;
+    }
+}
+
+TEST(GltfCodecs, APlainPrimitiveKeepsTheNumbersThatADracoMeshReplaces) {
+    GltfDocument document = gltf_text::triangle();
+    json primitive = draco_primitive(document, 5);
+    primitive["indices"] = gltf_text::add_accessor(document, std::vector<std::uint16_t>{0, 1, 2}, "SCALAR", 5123, 1);
+    document.json["meshes"][0]["primitives"].push_back(primitive);
+    const Mesh mesh = gltf_text::read(document);
+    ASSERT_EQ(vertex_count(mesh), 6U);
+    EXPECT_EQ(mesh.positions[1], (Vec3f{1, 0, 0}));
+    EXPECT_GE(mesh.positions[4].x, 5);
 }
 
 TEST(GltfCodecs, AHeadThatDracoCodedIsItsPlainTwin) {

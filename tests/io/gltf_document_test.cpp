@@ -240,10 +240,49 @@ TEST(LoadGltf, RefusesPlainViewsOfAFallbackBuffer) {
     EXPECT_THAT(refusal(root), HasSubstr("/bufferViews/1: expected an extension EXT_meshopt_compression"));
 }
 
+// A view of four bytes that are there, another of a buffer that is nowhere, and an accessor for each.
+json half_there() {
+    json root = with_buffer_uri("data:;base64,Zm9vYg==", 4);
+    root["buffers"].push_back({{"byteLength", 4}});
+    const json nowhere{{"buffer", 1}, {"byteLength", 4}};
+    root["bufferViews"].insert(root["bufferViews"].begin(), nowhere);
+    const json numbers = {{"type", "SCALAR"}, {"componentType", 5126}, {"count", 1}};
+    for (const std::size_t view : {0U, 1U}) {
+        root["accessors"].push_back(numbers);
+        root["accessors"].back()["bufferView"] = view;
+    }
+    root["meshes"] = json::array({{{"primitives", json::array({{{"attributes", {{"_USED", 1U}}}}})}}});
+    return root;
+}
+
 TEST(LoadGltf, RefusesViewsOfABufferThatIsNowhere) {
-    json root = with_buffer_uri("data:;base64,AAAA", 3);
-    root["buffers"][0].erase("uri");
+    json root = half_there();
+    root["meshes"][0]["primitives"][0]["attributes"]["_USED"] = 0U;
     EXPECT_THAT(refusal(root), HasSubstr("/bufferViews/0/buffer: expected a buffer with bytes"));
+    root = half_there();
+    root["images"] = json::array({{{"bufferView", 0U}, {"mimeType", "image/png"}}});
+    EXPECT_THAT(refusal(root), HasSubstr("/bufferViews/0/buffer: expected a buffer with bytes"));
+    root = half_there();
+    root["extensionsUsed"] = json::array({"ACME_points"});
+    EXPECT_THAT(refusal(root), HasSubstr("/bufferViews/0/buffer: expected a buffer with bytes"));
+}
+
+TEST(LoadGltf, LeavesOutViewsOfABufferThatIsNowhereWhenNothingIsMadeOfThem) {
+    Folder folder;
+    const GltfDocument document = load(half_there(), folder);
+    ASSERT_EQ(document.json["bufferViews"].size(), 1U);
+    EXPECT_EQ(view_text(document, 0), "foob");
+    ASSERT_EQ(document.json["accessors"].size(), 1U);
+    EXPECT_EQ(document.json["accessors"][0]["bufferView"], 0);
+    EXPECT_EQ(document.json["meshes"][0]["primitives"][0]["attributes"]["_USED"], 0);
+}
+
+TEST(LoadGltf, RefusesExtensionsThatAreNoList) {
+    for (const json& bad : {json("EXT_meshopt_compression"), json(5), json::object()}) {
+        json root = empty_json();
+        root["extensionsUsed"] = bad;
+        EXPECT_THAT(refusal(root), HasSubstr("/extensionsUsed: expected an array"));
+    }
 }
 
 }  // namespace

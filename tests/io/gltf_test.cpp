@@ -317,6 +317,29 @@ TEST(ParseGltf, KeepsTargetsOfOneNameInOneMeshApart) {
     EXPECT_NE(read_back.morph_targets[0].name, read_back.morph_targets[1].name);
 }
 
+TEST(ParseGltf, KeepsTargetsApartWhateverOthersAreCalled) {
+    GltfDocument document = triangle();
+    const std::size_t delta = add_vec3(document, {0, 0, 0, 0, 1, 0, 0, 0, 0});
+    json& mesh = document.json["meshes"][0];
+    const json target{{"POSITION", delta}};
+    mesh["primitives"][0]["targets"] = json::array({target, target, target});
+    mesh["extras"]["targetNames"] = {"a_3", "a", "a"};
+    const Mesh read_back = read(document);
+    ASSERT_EQ(read_back.morph_targets.size(), 3U);
+    for (const MorphTarget& each : read_back.morph_targets) EXPECT_THAT(each.vertices, ElementsAre(1)) << each.name;
+}
+
+TEST(ParseGltf, TakesNamesOfTargetsFromAPrimitiveWhereTheMeshHasNone) {
+    GltfDocument document = triangle();
+    const std::size_t delta = add_vec3(document, {0, 0, 0, 0, 1, 0, 0, 0, 0});
+    json& mesh = document.json["meshes"][0];
+    mesh["primitives"][0]["targets"] = json::array({{{"POSITION", delta}}});
+    mesh["primitives"][0]["extras"]["targetNames"] = {"smile"};
+    EXPECT_EQ(read(document).morph_targets.at(0).name, "smile");
+    mesh["extras"]["targetNames"] = {"frown"};
+    EXPECT_EQ(read(document).morph_targets.at(0).name, "frown");
+}
+
 TEST(ParseGltf, RefusesPrimitivesOfDifferentNumbersOfTargets) {
     GltfDocument document = triangle();
     json& primitives = document.json["meshes"][0]["primitives"];

@@ -9,12 +9,21 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "mien/mesh.hpp"
 #include "mien/picture.hpp"
 #include "mien/take.hpp"
 
 namespace mien::hostile {
+
+/// Whether a shape moves vertices of a mesh of this many, each once, by finite amounts.
+inline bool keeps_promise(const MorphTarget& target, std::size_t vertices) {
+    const auto& moved = target.vertices;
+    return target.deltas.size() == moved.size() && (moved.empty() || moved.back() < vertices) &&
+           std::adjacent_find(moved.begin(), moved.end(), std::greater_equal<>()) == moved.end() &&
+           std::all_of(target.deltas.begin(), target.deltas.end(), is_finite<float>);
+}
 
 /// Whether the promise of every reader holds for this mesh.
 inline bool keeps_promise(const Mesh& mesh) {
@@ -26,6 +35,7 @@ inline bool keeps_promise(const Mesh& mesh) {
     for (const Part& part : mesh.parts)
         good = good && std::uint64_t{part.first_vertex} + part.vertex_count <= mesh.positions.size() &&
                std::uint64_t{part.first_face} + part.face_count <= face_count(mesh);
+    for (const MorphTarget& target : mesh.morph_targets) good = good && keeps_promise(target, mesh.positions.size());
     good = good && (mesh.corner_uvs.empty() || mesh.corner_uvs.size() == mesh.face_vertices.size());
     return good && std::all_of(mesh.face_vertices.begin(), mesh.face_vertices.end(), in_range) &&
            std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite<float>) &&

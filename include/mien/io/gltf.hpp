@@ -21,8 +21,10 @@ using Fetch = std::function<std::vector<std::byte>(std::string_view uri)>;
 
 /// glTF 2.0, text or binary: all meshes and primitives with node transforms, sparse accessors, interleaving,
 /// KHR_mesh_quantization, EXT_meshopt_compression, KHR_draco_mesh_compression, morph targets with their names; skins in
-/// their rest pose. `Mesh::gltf` is filled; a picture that cannot be fetched is not in it and named in
-/// `Mesh::left_out`. Throws Error naming the JSON pointer or byte, expected and found.
+/// their rest pose. A mesh that several nodes of the scene show stands at each of them: at the first as the file's own,
+/// at the others as copies, in the order of the scene behind all meshes of the file, "eye_2" after "eye". `Mesh::gltf`
+/// is filled, copies with it; a picture that cannot be fetched is not in it and named in `Mesh::left_out`. Throws Error
+/// naming the JSON pointer or byte, expected and found.
 Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch);
 
 struct GltfOptions {
