@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "eyeball.hpp"
 #include "head_cage.hpp"
+#include "sculpt.hpp"
 
 namespace mien::samples {
 namespace {
@@ -47,9 +49,28 @@ void clear_eyeball(MirroredSurface& mesh) {
     }
 }
 
+// The back edge of the lids lies on the globe; towards the inner corner, where the globe is not, the lids leave it.
+void seat_lids(Skin& skin, const char* ring) {
+    auto loop = skin.cage.rings.at(ring);
+    loop.push_back(loop.front());
+    for (const auto v : chain(skin.mesh, loop)) {
+        const Vec3 d = skin.mesh.surface.positions[v] - left_eye_centre;
+        const double r = length(d), seat = eye_reach(std::acos(std::clamp(d.z / r, -1.0, 1.0))) + lid_clearance;
+        const double share = std::clamp((r - 13.2) / 1.6, 0.0, 1.0);
+        set_mirrored(skin.mesh, v, left_eye_centre + ((seat + share * (r - seat)) / r) * d);
+    }
+}
+
 void settle_midline(MirroredSurface& mesh) {
     for (std::uint32_t v = 0; v < mesh.mirror.size(); ++v)
         if (mesh.mirror[v] >= v) set_mirrored(mesh, v, mesh.surface.positions[v]);
+}
+
+void sculpt(MirroredSurface& mesh, std::span<const Stroke> strokes) {
+    for (std::uint32_t v = 0; v < mesh.mirror.size(); ++v) {
+        const Vec3 p = mesh.surface.positions[v];
+        if (mesh.mirror[v] >= v) set_mirrored(mesh, v, p + stroke_sum(strokes, p));
+    }
 }
 
 Colour mix(const Colour& a, const Colour& b, double t) {
@@ -92,8 +113,11 @@ Skin make_skin() {
     skin.mesh = limit_surface(skin.cage);
     skin.mesh.surface.name = "head";
     settle_midline(skin.mesh);
+    sculpt(skin.mesh, face_strokes());
+    sculpt(skin.mesh, ear_strokes());
     close_lips(skin, "mouth.contact");
     close_lips(skin, "mouth.behind");
+    seat_lids(skin, "eye.margin_back");
     clear_eyeball(skin.mesh);
     skin.mesh.surface.materials = {{"skin", {1, 1, 1, 1}, 0.55}};
     skin.mesh.surface.colours = colours_of(skin.mesh.surface);
