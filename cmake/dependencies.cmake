@@ -24,3 +24,6 @@ add_library(draco INTERFACE)
 add_library(draco::draco ALIAS draco)
 target_include_directories(draco SYSTEM INTERFACE ${DRACO_INCLUDE})
 target_link_libraries(draco INTERFACE ${DRACO_LIBRARY})
+
+find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)

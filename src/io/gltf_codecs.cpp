@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "io/gltf_accessors.hpp"
 #include "io/gltf_decompress.hpp"
+#include "io/gltf_document.hpp"
 #include "io/gltf_json.hpp"
 #include "io/gltf_unused.hpp"
 
@@ -55,6 +57,13 @@ void decompress(GltfDocument& document) {
     forget_extension(document.json, "EXT_meshopt_compression");
     forget_extension(document.json, "KHR_draco_mesh_compression");
     if (meshopt || draco) drop_unused_numbers(document);
+}
+
+GltfDocument load_plain_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
+    GltfDocument document = load_gltf(bytes, fetch);
+    decompress(document);
+    check_accessors(document);
+    return document;
 }
 
 }  // namespace mien

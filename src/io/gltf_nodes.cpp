@@ -150,22 +150,6 @@ std::vector<std::size_t> scene_roots(const json& root, const Tree& tree) {
 
 }  // namespace
 
-Vec3 turned(const Affine& map, const Vec3& v) {
-    return v.x * map.columns[0] + v.y * map.columns[1] + v.z * map.columns[2];
-}
-
-Vec3 moved(const Affine& map, const Vec3& p) {
-    return turned(map, p) + map.offset;
-}
-
-Affine operator*(const Affine& a, const Affine& b) {
-    return {{turned(a, b.columns[0]), turned(a, b.columns[1]), turned(a, b.columns[2])}, moved(a, b.offset)};
-}
-
-double determinant(const Affine& map) {
-    return dot(map.columns[0], cross(map.columns[1], map.columns[2]));
-}
-
 Affine affine_from_columns(const std::array<double, 16>& m) {
     return {{Vec3{m[0], m[1], m[2]}, Vec3{m[4], m[5], m[6]}, Vec3{m[8], m[9], m[10]}}, {m[12], m[13], m[14]}};
 }

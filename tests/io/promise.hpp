@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "mien/mesh.hpp"
+#include "mien/picture.hpp"
 #include "mien/take.hpp"
 
 namespace mien::hostile {
@@ -40,6 +41,11 @@ inline bool keeps_promise(const Take& take) {
     for (std::size_t r = 0; r < take.times.size(); ++r)
         good = good && std::isfinite(take.times[r]) && (r == 0 || take.times[r - 1] < take.times[r]);
     return good && std::all_of(take.samples.begin(), take.samples.end(), whole);
+}
+
+/// As many numbers as the size says, and some.
+inline bool keeps_promise(const Picture& picture) {
+    return !picture.rgba.empty() && picture.rgba.size() == std::uint64_t{4} * picture.width * picture.height;
 }
 
 /// Whether two takes hold the same names, times and samples, lost ones too.
