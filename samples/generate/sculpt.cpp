@@ -5,17 +5,10 @@
 
 #include <algorithm>
 
+#include "noise.hpp"
+
 namespace mien::samples {
 namespace {
-
-double share(const Stroke& s, const Vec3& p) {
-    const Vec3 along = s.to - s.from;
-    const double square = dot(along, along);
-    const double t = square == 0 ? 0 : std::clamp(dot(p - s.from, along) / square, 0.0, 1.0);
-    const Vec3 off = p - s.from - t * along;
-    const double d = dot(off, off) / (s.radius * s.radius);
-    return d >= 1 ? 0 : (1 - d) * (1 - d);
-}
 
 // clang-format off
 constexpr Stroke strokes[]{
@@ -53,11 +46,37 @@ constexpr Stroke strokes[]{
 };
 // clang-format on
 
+Vec3 swollen_once(const Swell& s, const Vec3& p) {
+    const Vec3 d = p - s.centre;
+    const double share = 1 - smooth_step(s.inner, s.outer, length(d));
+    return s.centre + (1 + (s.scale - 1) * share) * d;
+}
+
 }  // namespace
+
+double share(const Vec3& from, const Vec3& to, double radius, const Vec3& place) {
+    const Vec3 along = to - from;
+    const double square = dot(along, along);
+    const double t = square == 0 ? 0 : std::clamp(dot(place - from, along) / square, 0.0, 1.0);
+    const Vec3 off = place - from - t * along;
+    const double d = dot(off, off) / (radius * radius);
+    return d >= 1 ? 0 : (1 - d) * (1 - d);
+}
+
+Vec3 swollen(std::span<const Swell> swells, const Vec3& place) {
+    Vec3 p = place;
+    for (Swell s : swells) {
+        const double side = p.x < 0 && s.centre.x > 0 ? -1 : 1;
+        p.x *= side;
+        p = swollen_once(s, p);
+        p.x *= side;
+    }
+    return p;
+}
 
 Vec3 stroke_sum(std::span<const Stroke> all, const Vec3& place) {
     Vec3 sum;
-    for (const Stroke& s : all) sum += share(s, place) * s.move;
+    for (const Stroke& s : all) sum += share(s.from, s.to, s.radius, place) * s.move;
     return sum;
 }
 

@@ -18,8 +18,20 @@ struct Stroke {
     Vec3 move;
 };
 
+/// How much of a stroke a place gets, 0 to 1.
+double share(const Vec3& from, const Vec3& to, double radius, const Vec3& place);
+
 /// The sum of the strokes' displacements at a place.
 Vec3 stroke_sum(std::span<const Stroke> strokes, const Vec3& place);
+
+/// A ball in which everything grows: by `scale` up to `inner` from its centre, less and less up to `outer`.
+struct Swell {
+    Vec3 centre;
+    double inner = 1, outer = 2, scale = 1;
+};
+
+/// One swell after the other, each with its mirror image at x = 0 unless its centre lies there.
+Vec3 swollen(std::span<const Swell> swells, const Vec3& place);
 
 /// What the cage is too coarse for: philtrum, cupid's bow, wings of the nose, cheek bones, tear trough, sternomastoid.
 std::span<const Stroke> face_strokes();

@@ -93,7 +93,7 @@ void add_tube(Surface& half, std::uint32_t stations, bool up) {
 }
 
 Surface make_teeth(const Arch& arch) {
-    Surface half{arch.name, {}, {}, {{"gum", {.45, .14, .14, 1}, .35}, {"teeth", {.80, .76, .66, 1}, .25}}, {}};
+    Surface half{arch.name, {}, {}, {{"gums", {.45, .14, .14, 1}, .35}, {"teeth", {.80, .76, .66, 1}, .25}}, {}};
     const std::vector<double> angles = station_angles(arch);
     for (std::size_t s = 0; s < angles.size(); ++s)
         add_station(half, arch, angles[s], static_cast<double>(s) / static_cast<double>(angles.size() - 1),
