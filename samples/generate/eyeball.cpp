@@ -15,6 +15,8 @@ namespace mien::samples {
 namespace {
 
 constexpr double limbus_radius = 5.85, pupil_radius = 2.0, cornea_radius = 7.8;
+// The cornea's refraction lifts the iris; a flat one would look sunken, so it is a low cone.
+constexpr double iris_rise = 0.7;
 constexpr std::uint32_t segments = 32;
 enum Part : std::uint32_t { globe, cornea };
 
@@ -84,12 +86,12 @@ Surface make_left_eye(const EyePlace& place) {
     eye.materials = {{"eye", {1, 1, 1, 1}, .18, "eye"}, {"cornea", {0, 0, 0, .16}, .03}};
     const double depth = limbus_height();
     Turner turner{eye, {}, 0};
-    turner.ring = turner.add_ring({0, depth - .9});
+    turner.ring = turner.add_ring({0, depth + iris_rise});
     constexpr Uv front{.5, .5};
     constexpr double pupil_in_picture = iris_in_picture * pupil_radius / limbus_radius;
-    turner.to({pupil_radius, depth - .9}, globe, pupil_in_picture, front);
+    turner.to({pupil_radius, depth + iris_rise}, globe, pupil_in_picture, front);
     for (int i = 1; i <= 3; ++i)
-        turner.to({pupil_radius + (limbus_radius - pupil_radius) * i / 3, depth - .9 + .3 * i}, globe,
+        turner.to({pupil_radius + (limbus_radius - pupil_radius) * i / 3, depth + iris_rise * (3 - i) / 3}, globe,
                   pupil_in_picture + (iris_in_picture - pupil_in_picture) * i / 3, front);
     constexpr int globe_rings = 9;
     const double limbus_angle = std::atan2(limbus_radius, depth);

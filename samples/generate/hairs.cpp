@@ -51,9 +51,9 @@ Surface with_mirror(const Surface& half) {
 // Hairs of a brow stand up at its inner end, lie along it at its outer end, and lean towards its middle line.
 void add_brow_hair(Surface& brows, const BrowLook& look, const Shell& shell, const Character& character,
                    std::uint32_t i) {
-    const double t = std::sqrt(scatter(i, 1)) * .35 + .65 * scatter(i, 2);
+    const double t = (i + scatter(i, 1)) / look.hairs;
     const double across = 2 * scatter(i, 3) - 1;
-    const double taper = smooth_step(-.12, .14, t) * (1 - .75 * smooth_step(.45, 1.05, t));
+    const double taper = smooth_step(-.2, .12, t) * (1 - .75 * smooth_step(.45, 1.05, t));
     const Vec3 middle = on_curve(look.path, t), ahead = on_curve(look.path, t + .02);
     const Vec3 place = shaped(character, middle + Vec3{0, across * look.half_width * taper, 0});
     const Vec3 along = unit(shaped(character, ahead) - shaped(character, middle));
@@ -101,7 +101,7 @@ double channel(double srgb) {
 }
 
 Material hair_material(const char* name, const Tint& tint) {
-    return {name, linear(tint), .6, {}, true};
+    return {name, linear(tint), .85, {}, true};
 }
 
 // The lid's edge from the inner corner outwards; first over the top, then along the bottom.

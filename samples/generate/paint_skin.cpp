@@ -111,7 +111,7 @@ Tint skin_tint(const Character& character, const Ground& g) {
     tint = tint * (1 + .014 * wide + .014 * middle + .008 * fine);
     if (look.freckles > 0)
         tint = mix(tint, times(look.skin, {.72, .56, .46}),
-                   look.freckles * smooth_step(.42, .62, noise(g.place / 1.9 + Vec3{5, 5, 5})) *
+                   look.freckles * smooth_step(.5, .7, noise(g.place / 1.2 + Vec3{5, 5, 5})) *
                        smooth_step(.1, .5, sum_of(flushed, p)));
     const double beard = sum_of(bearded, p) * (1 - .25 * (noise(g.place / .9) + 1));
     tint = mix(tint, mix(times(look.skin, {.56, .56, .6}), {66, 66, 72}, .35), look.beard * beard);
@@ -134,9 +134,10 @@ Tint tint_of(const Character& character, const Ground& g) {
                g.hair * (.55 + .45 * std::min(1.0, g.hair + strands)) * .95);
     tint = mix(tint, lip_tint(character, g), smooth_step(.3, .8, g.lip + .05 * noise(g.place / .9)));
     const bool nostril = g.place.z > 90 && g.place.y > -46;
-    const Tint flesh = nostril ? Tint{84, 36, 32} : mix({58, 20, 20}, {150, 66, 62}, smooth_step(50, 96, g.place.z));
+    const Tint flesh = nostril ? Tint{84, 36, 32} : mix({92, 36, 36}, {176, 88, 82}, smooth_step(46, 90, g.place.z));
     tint = mix(tint, flesh, smooth_step(.2, nostril ? 1 : .7, g.inner));
-    const Tint margin = mix(times(character.skin.skin, {.86, .62, .58}), {176, 92, 86}, smooth_step(78, 75, g.place.z));
+    const Tint margin =
+        mix(times(character.skin.skin, {.93, .76, .72}), {206, 128, 118}, smooth_step(78, 75, g.place.z));
     tint = mix(tint, margin, smooth_step(.2, .9, g.lid));
     return mix(tint, character.lash.colour, g.lashes * (.3 + .3 * character.skin.make_up));
 }
