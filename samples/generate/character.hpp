@@ -74,6 +74,7 @@ struct Character {
     std::string title;  ///< in a sentence: "the sample woman"
     std::vector<Stroke> strokes;
     std::vector<Swell> swells;
+    double eye_depth = 0;  ///< how far the eyeballs lie behind those of the neutral head
     SkinLook skin;
     IrisLook iris;
     BrowLook brow;

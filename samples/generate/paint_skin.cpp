@@ -136,10 +136,10 @@ Tint tint_of(const Character& character, const Ground& g) {
     const bool nostril = g.place.z > 90 && g.place.y > -46;
     const Tint flesh = nostril ? Tint{84, 36, 32} : mix({92, 36, 36}, {176, 88, 82}, smooth_step(46, 90, g.place.z));
     tint = mix(tint, flesh, smooth_step(.2, nostril ? 1 : .7, g.inner));
-    const Tint margin =
-        mix(times(character.skin.skin, {.93, .76, .72}), {206, 128, 118}, smooth_step(78, 75, g.place.z));
+    const Tint margin = mix(times(character.skin.skin, {.97, .84, .8}), times(character.skin.skin, {1, .78, .74}),
+                            smooth_step(78, 75, g.place.z));
     tint = mix(tint, margin, smooth_step(.2, .9, g.lid));
-    return mix(tint, character.lash.colour, g.lashes * (.3 + .3 * character.skin.make_up));
+    return mix(tint, character.lash.colour, g.lashes * (.5 + .4 * character.skin.make_up));
 }
 
 struct Canvas {
