@@ -9,12 +9,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "paint.hpp"
+
 namespace mien::samples {
 namespace {
 
 constexpr double limbus_radius = 5.85, pupil_radius = 2.0, cornea_radius = 7.8;
+// The cornea's refraction lifts the iris; a flat one would look sunken, so it is a low cone.
+constexpr double iris_rise = 0.7;
 constexpr std::uint32_t segments = 32;
-enum Region : std::uint32_t { pupil, iris, white, cornea };
+enum Part : std::uint32_t { globe, cornea };
 
 double limbus_height() {
     return std::sqrt(eyeball_radius * eyeball_radius - limbus_radius * limbus_radius);
@@ -38,7 +42,7 @@ struct Turner {
         for (std::uint32_t s = 0; s < (p.radius == 0 ? 1U : segments); ++s) {
             const double t = 2 * std::numbers::pi * s / segments;
             ids.push_back(static_cast<std::uint32_t>(eye.positions.size()));
-            eye.positions.push_back(left_eye_centre + Vec3{p.radius * std::cos(t), p.radius * std::sin(t), p.z});
+            eye.positions.push_back(Vec3{p.radius * std::cos(t), p.radius * std::sin(t), p.z});
         }
         return ids;
     }
@@ -49,19 +53,19 @@ struct Turner {
     }
 
     // Joins the last ring to a new one further out or further back.
-    void to(const Profile& p, Region region, double uv_radius, const Uv& centre) {
+    void to(const Profile& p, Part part, double uv_radius, const Uv& centre) {
         const auto next = add_ring(p);
         for (std::uint32_t s = 0; s < segments; ++s) {
             const std::uint32_t n = (s + 1) % segments;
             const auto in = [&](std::uint32_t i) { return disc(last_radius, i, centre); };
             const auto out = [&](std::uint32_t i) { return disc(uv_radius, i, centre); };
             if (ring.size() == 1)
-                eye.faces.push_back({{ring[0], next[s], next[n], no_vertex}, {in(s), out(s), out(s + 1), {}}, region});
+                eye.faces.push_back({{ring[0], next[s], next[n], no_vertex}, {in(s), out(s), out(s + 1), {}}, part});
             else if (next.size() == 1)
-                eye.faces.push_back({{ring[s], next[0], ring[n], no_vertex}, {in(s), out(s), in(s + 1), {}}, region});
+                eye.faces.push_back({{ring[s], next[0], ring[n], no_vertex}, {in(s), out(s), in(s + 1), {}}, part});
             else
                 eye.faces.push_back(
-                    {{ring[s], next[s], next[n], ring[n]}, {in(s), out(s), out(s + 1), in(s + 1)}, region});
+                    {{ring[s], next[s], next[n], ring[n]}, {in(s), out(s), out(s + 1), in(s + 1)}, part});
         }
         ring = next;
         last_radius = uv_radius;
@@ -77,36 +81,34 @@ double eye_reach(double angle) {
     return c * std::cos(angle) + std::sqrt(cornea_radius * cornea_radius - c * c * s * s);
 }
 
-Surface make_left_eye() {
+Surface make_left_eye(const EyePlace& place) {
     Surface eye{"eye_left", {}, {}, {}, {}};
-    eye.materials = {{"pupil", {.01, .01, .01, 1}, .3},
-                     {"iris", {.16, .22, .25, 1}, .4},
-                     {"eye_white", {.82, .79, .76, 1}, .25},
-                     {"cornea", {1, 1, 1, .12}, .05}};
+    eye.materials = {{"eye", {1, 1, 1, 1}, .18, "eye"}, {"cornea", {0, 0, 0, .16}, .03}};
     const double depth = limbus_height();
     Turner turner{eye, {}, 0};
-    turner.ring = turner.add_ring({0, depth - .9});
-    constexpr Uv front{.30, .5}, window{.82, .5};
-    turner.to({pupil_radius, depth - .9}, pupil, .05, front);
+    turner.ring = turner.add_ring({0, depth + iris_rise});
+    constexpr Uv front{.5, .5};
+    constexpr double pupil_in_picture = iris_in_picture * pupil_radius / limbus_radius;
+    turner.to({pupil_radius, depth + iris_rise}, globe, pupil_in_picture, front);
     for (int i = 1; i <= 3; ++i)
-        turner.to({pupil_radius + (limbus_radius - pupil_radius) * i / 3, depth - .9 + .3 * i}, iris, .05 + .035 * i,
-                  front);
+        turner.to({pupil_radius + (limbus_radius - pupil_radius) * i / 3, depth + iris_rise * (3 - i) / 3}, globe,
+                  pupil_in_picture + (iris_in_picture - pupil_in_picture) * i / 3, front);
     constexpr int globe_rings = 9;
     const double limbus_angle = std::atan2(limbus_radius, depth);
     for (int i = 1; i <= globe_rings; ++i) {
         const double t =
             i == globe_rings ? std::numbers::pi : limbus_angle + (std::numbers::pi - limbus_angle) * i / globe_rings;
         const double radius = i == globe_rings ? 0 : eyeball_radius * std::sin(t);
-        turner.to({radius, eyeball_radius * std::cos(t)}, white, .155 + .013 * i, front);
+        turner.to({radius, eyeball_radius * std::cos(t)}, globe, iris_in_picture + .026 * i, front);
     }
     turner.ring = turner.add_ring({0, cornea_centre() + cornea_radius});
     turner.last_radius = 0;
     const double opening = std::asin(limbus_radius / cornea_radius);
     for (int i = 1; i <= 4; ++i) {
         const double t = opening * i / 4;
-        turner.to({cornea_radius * std::sin(t), cornea_centre() + cornea_radius * std::cos(t)}, cornea, .04 * i,
-                  window);
+        turner.to({cornea_radius * std::sin(t), cornea_centre() + cornea_radius * std::cos(t)}, cornea, .06 * i, front);
     }
+    for (Vec3& p : eye.positions) p = place.centre + place.scale * p;
     return eye;
 }
 

@@ -12,7 +12,10 @@
 #include <iterator>
 
 #include "eyeball.hpp"
+#include "hair.hpp"
+#include "hairs.hpp"
 #include "mouth_parts.hpp"
+#include "paint.hpp"
 #include "skin.hpp"
 
 namespace mien::samples {
@@ -88,7 +91,7 @@ struct Near {
 
 // Points by their place on the skin: the nearest vertex.
 constexpr Near near_places[]{
-    {{"5.1", "5.2"}, {46, -65.2, 77}},  {{"5.3", "5.4"}, {41, -26, 80}},  {{"9.1", "9.2"}, {17, -34.5, 102}},
+    {{"5.1", "5.2"}, {46, -65.2, 77}},  {{"5.3", "5.4"}, {41, -26, 80}},  {{"9.1", "9.2"}, {16.2, -34.5, 101.5}},
     {{"11.1", nullptr}, {0, 73, 86}},   {{"11.3", "11.2"}, {48, 60, 74}}, {{"11.4", nullptr}, {0, 111, -14}},
     {{"11.6", nullptr}, {0, 0, -90.5}},
 };
@@ -104,7 +107,7 @@ struct Namer {
 
     std::uint32_t on_ring(const Between& b) const {
         const auto& ring = skin.cage.rings.at(b.ring);
-        const auto& positions = head.parts[skin_part].positions;
+        const auto& positions = skin.neutral;
         const double x = (positions[ring[b.a]].x + positions[ring[b.b]].x) / 2;
         std::uint32_t best = ring[b.from];
         for (const auto v : chain(skin.mesh, {ring.begin() + static_cast<std::ptrdiff_t>(b.from),
@@ -114,7 +117,7 @@ struct Namer {
     }
 
     std::uint32_t nearest(const Near& n) const {
-        const auto& positions = head.parts[skin_part].positions;
+        const auto& positions = skin.neutral;
         std::uint32_t best = 0;
         for (std::uint32_t v = 0; v < positions.size(); ++v) {
             const bool allowed = n.ids.right != nullptr || skin.mesh.mirror[v] == v;
@@ -150,13 +153,21 @@ void name_points(Head& head, const Skin& skin, const Tongue& tongue) {
 
 }  // namespace
 
-Head make_head() {
-    const Skin skin = make_skin();
+Head make_head(const Character& character) {
+    const Skin skin = make_skin(character);
     const Tongue tongue = make_tongue();
-    const Surface eye = make_left_eye();
-    Head head{
-        {skin.mesh.surface, eye, mirrored(eye, "eye_right"), make_upper_teeth(), make_lower_teeth(), tongue.surface},
-        {}};
+    const Surface eye = make_left_eye(left_eye_place(character));
+    Head head{character.name,
+              character.title,
+              {skin.mesh.surface, eye, mirrored(eye, "eye_right"), make_upper_teeth(), make_lower_teeth(),
+               tongue.surface, make_brows(character, skin), make_lashes(character, skin), make_hair(character, skin)},
+              {},
+              {}};
+    for (const PartNumber part : {upper_teeth, lower_teeth, tongue_part})
+        for (Vec3& p : head.parts[part].positions) p = swollen(character.swells, p);
+    head.pictures = {{"skin", paint_skin(character, skin, hair_cover(character, skin, head.parts.back()))},
+                     {"eye", paint_eye(character.iris)},
+                     {"hair", paint_hair(character.hair)}};
     for (Surface& part : head.parts) round_positions(part);
     name_points(head, skin, tongue);
     return head;

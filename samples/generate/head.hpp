@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "character.hpp"
 #include "surface.hpp"
+
+#include "mien/picture.hpp"
 
 namespace mien::samples {
 
@@ -17,12 +20,21 @@ struct HeadPoint {
     std::uint32_t vertex = 0;
 };
 
-struct Head {
-    std::vector<Surface> parts;  ///< head, eye_left, eye_right, teeth_upper, teeth_lower, tongue
-    std::vector<HeadPoint> points;
+struct NamedPicture {
+    std::string name;
+    Picture picture;
 };
 
-Head make_head();
+struct Head {
+    std::string name;  ///< stem of its files
+    std::string title;
+    std::vector<Surface>
+        parts;  ///< head, eye_left, eye_right, teeth_upper, teeth_lower, tongue, eyebrows, eyelashes, hair
+    std::vector<HeadPoint> points;
+    std::vector<NamedPicture> pictures;  ///< those that the parts' materials name
+};
+
+Head make_head(const Character& character);
 
 Vec3 place(const Head& head, const HeadPoint& point);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the mien authors
 
-// Writes the sample head and the sample performance into a folder: mien_samples FOLDER
+// Writes the sample heads and the sample performance into a folder: mien_samples FOLDER
 
 #include <cstdio>
 #include <filesystem>
@@ -28,14 +28,18 @@ int main(int argc, char** argv) {
         return 2;
     }
     const std::filesystem::path folder = argv[1];
-    const Head head = make_head();
-    const Performance performance = perform(head);
-    const bool written = write(folder / "head.glb", format_glb(head.parts)) &&
-                         write(folder / "head.obj", format_obj(head.parts)) &&
-                         write(folder / "head.points.json", format_points_by_mesh(head)) &&
-                         write(folder / "head-obj.points.json", format_points_by_vertex(head)) &&
-                         write(folder / "take.trc", format_trc_take(performance.take)) &&
-                         write(folder / "markers.csv", format_names(performance));
+    bool written = true;
+    for (const Character& character : cast()) {
+        const Head head = make_head(character);
+        written = written && write(folder / (head.name + ".glb"), format_glb(head)) &&
+                  write(folder / (head.name + ".points.json"), format_points_by_mesh(head));
+        if (head.name != "head") continue;
+        const Performance performance = perform(head);
+        written = written && write(folder / "head.obj", format_obj(head.parts)) &&
+                  write(folder / "head-obj.points.json", format_points_by_vertex(head)) &&
+                  write(folder / "take.trc", format_trc_take(performance.take)) &&
+                  write(folder / "markers.csv", format_names(performance));
+    }
     if (!written) fmt::print(stderr, "mien_samples: cannot write into {}\n", folder.string());
     return written ? 0 : 3;
 }

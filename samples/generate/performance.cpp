@@ -71,8 +71,8 @@ const std::vector<Action>& actions() {
          {{"4.1", {-4.5, -3, 1}}, {"4.3", {-2, -3.6, 1}}, {"4.5", {-.5, -1.2, .2}}, {"5.3", {0, .8, .2}}, {"3.3", {0, .6, .1}}, {"9.12", {0, .4, .4}}}},
         // smile
         {{{2.7, 0}, {3.05, 1}, {3.55, .95}, {3.9, 0}},
-         {{"8.3", {9, 7.5, -5}}, {"8.5", {3.2, 2.8, -2.2}}, {"8.1", {0, .6, -1.8}}, {"8.7", {3, 2.2, -2.8}}, {"8.2", {0, .6, -2}}, {"5.1", {2, 4.5, 2.2}},
-          {"5.3", {.5, 3.5, 1.6}}, {"3.3", {0, 1.1, .2}}, {"9.1", {1.2, .6, -.4}}, {"2.10", {0, -.5, -.5}}}},
+         {{"8.3", {9, 7.5, -5}}, {"8.5", {3.6, 4.4, -2.4}}, {"8.1", {0, 2.4, -2}}, {"8.7", {3.2, -.6, -2.8}}, {"8.2", {0, -2.6, -2}}, {"5.1", {2, 4.5, 2.2}},
+          {"5.3", {.5, 3.5, 1.6}}, {"3.3", {0, 1.3, .3}}, {"4.5", {0, -.8, 0}}, {"9.1", {1.4, .6, -.4}}, {"2.10", {0, -1.4, -.8}}}},
         // jaw
         {{{3.95, 0}, {4.35, 1}, {4.6, 1}, {5, 0}, {5.95, 0}, {6.05, .38}, {6.1, .38}, {6.22, 0}, {6.26, 0}, {6.38, .4}, {6.46, .38}, {6.6, .13}, {6.85, .12},
           {6.95, .02}, {7, .02}, {7.12, .5}, {7.22, .5}, {7.5, 0}},
@@ -186,18 +186,19 @@ std::size_t marker_number(const std::string& name) {
 void shut(std::span<Vec3> row, const char* upper_name, const char* lower_name, double amount) {
     Vec3 &upper = row[marker_number(upper_name)], &lower = row[marker_number(lower_name)];
     const Vec3 gap = lower - upper;
-    const double bulge = 1.5 * amount * (1 - amount);
+    const double bulge = amount * (2.2 - amount);
     upper += (.9 * amount) * gap + Vec3{0, 0, bulge};
-    lower += (-.08 * amount) * gap;
+    lower += (-.08 * amount) * gap + Vec3{0, 0, .8 * amount};
 }
 
 struct Gap {
     const char* marker;
     std::size_t first, rows;
 };
-constexpr Gap gaps[]{{"LBrowOuter", 62, 7},    {"RCheek", 131, 12},     {"LLidUp", 199, 4},   {"RMouthCorner", 212, 9},
-                     {"ChinMid", 258, 18},     {"LipLowMid", 262, 6},   {"HeadR", 300, 10},   {"LNostril", 318, 5},
-                     {"LMouthCorner", 333, 3}, {"RBrowInner", 371, 14}, {"LipUpMid", 402, 5}, {"LChin", 421, 11},
+// Lost where the marker is at rest, so that a face that is driven without filling gaps does not jump.
+constexpr Gap gaps[]{{"LMouthCorner", 33, 3}, {"RMouthCorner", 62, 9}, {"LipLowMid", 100, 6},   {"RCheek", 131, 12},
+                     {"LipUpMid", 141, 5},    {"ChinMid", 136, 18},    {"LBrowOuter", 172, 7},  {"LChin", 190, 11},
+                     {"LLidUp", 240, 4},      {"HeadR", 300, 10},      {"RBrowInner", 371, 14}, {"LNostril", 384, 5},
                      {"HeadTop", 447, 8}};
 
 }  // namespace

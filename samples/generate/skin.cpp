@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "eyeball.hpp"
 #include "head_cage.hpp"
+#include "sculpt.hpp"
 
 namespace mien::samples {
 namespace {
@@ -37,13 +39,30 @@ void close_lips(Skin& skin, const char* ring) {
     }
 }
 
+// How far the eyeball reaches in the direction of a place, with clearance.
+double seat_of(const EyePlace& eye, const Vec3& from_centre) {
+    const double angle = std::acos(std::clamp(from_centre.z / length(from_centre), -1.0, 1.0));
+    return eye.scale * eye_reach(angle) + lid_clearance;
+}
+
 // Nothing of the skin near the eye may come closer to its centre than the eyeball reaches.
-void clear_eyeball(MirroredSurface& mesh) {
+void clear_eyeball(MirroredSurface& mesh, const EyePlace& eye) {
     for (std::uint32_t v = 0; v < mesh.surface.positions.size(); ++v) {
-        const Vec3 d = mesh.surface.positions[v] - left_eye_centre;
-        const double r = length(d);
-        const double least = eye_reach(std::acos(std::clamp(d.z / r, -1.0, 1.0))) + lid_clearance;
-        if (r < least) set_mirrored(mesh, v, left_eye_centre + (least / r) * d);
+        const Vec3 d = mesh.surface.positions[v] - eye.centre;
+        const double r = length(d), least = seat_of(eye, d);
+        if (r < least) set_mirrored(mesh, v, eye.centre + (least / r) * d);
+    }
+}
+
+// The back edge of the lids lies on the globe; towards the inner corner, where the globe is not, the lids leave it.
+void seat_lids(Skin& skin, const char* ring, const EyePlace& eye) {
+    auto loop = skin.cage.rings.at(ring);
+    loop.push_back(loop.front());
+    for (const auto v : chain(skin.mesh, loop)) {
+        const Vec3 d = skin.mesh.surface.positions[v] - eye.centre;
+        const double r = length(d), seat = seat_of(eye, d);
+        const double share = std::clamp((r / eye.scale - 13.2) / 1.6, 0.0, 1.0);
+        set_mirrored(skin.mesh, v, eye.centre + ((seat + share * (r - seat)) / r) * d);
     }
 }
 
@@ -52,51 +71,31 @@ void settle_midline(MirroredSurface& mesh) {
         if (mesh.mirror[v] >= v) set_mirrored(mesh, v, mesh.surface.positions[v]);
 }
 
-Colour mix(const Colour& a, const Colour& b, double t) {
-    return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), 1};
-}
-
-// By region: skin, lid margin, lip, inner mouth.
-constexpr std::array<Colour, 4> region_colours{{{.62, .37, .27}, {.55, .27, .22}, {.47, .18, .16}, {.28, .07, .07}}};
-constexpr Colour brow_colour{.13, .08, .05};
-
-// 1 in the middle of the left eyebrow, 0 off it: a band along an arch that tapers outwards.
-double brow_share(const Vec3& p) {
-    const double x = std::abs(p.x), t = (x - 11) / 40;
-    if (t < 0 || t > 1 || p.z < 40) return 0;
-    const double middle = 22.5 + 6.5 * std::sin(std::numbers::pi * std::pow(t, 1.15) * .8);
-    const double half_width = 3.8 - 2.2 * t;
-    const double ends = std::clamp(12 * t, 0.0, 1.0) * std::clamp(6 * (1 - t), 0.0, 1.0);
-    return .8 * ends * std::clamp(1.4 - std::abs(p.y - middle) / half_width, 0.0, 1.0);
-}
-
-// A vertex shows the mean of the regions round it, so that borders are soft.
-std::vector<Colour> colours_of(const Surface& skin) {
-    std::vector<Colour> sums(skin.positions.size(), Colour{0, 0, 0, 0});
-    for (const SurfaceFace& face : skin.faces)
-        for (const auto c : face.corners) {
-            const Colour& region = region_colours[static_cast<std::size_t>(face.region)];
-            sums[c] = {sums[c].r + region.r, sums[c].g + region.g, sums[c].b + region.b, sums[c].a + 1};
-        }
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-        const double n = sums[v].a;
-        sums[v] = mix({sums[v].r / n, sums[v].g / n, sums[v].b / n, 1}, brow_colour, brow_share(skin.positions[v]));
+void sculpt(MirroredSurface& mesh, std::span<const Stroke> strokes) {
+    for (std::uint32_t v = 0; v < mesh.mirror.size(); ++v) {
+        const Vec3 p = mesh.surface.positions[v];
+        if (mesh.mirror[v] >= v) set_mirrored(mesh, v, p + stroke_sum(strokes, p));
     }
-    return sums;
 }
 
 }  // namespace
 
-Skin make_skin() {
-    Skin skin{head_cage(), {}};
+Skin make_skin(const Character& character) {
+    Skin skin{head_cage(), {}, {}};
     skin.mesh = limit_surface(skin.cage);
     skin.mesh.surface.name = "head";
     settle_midline(skin.mesh);
+    sculpt(skin.mesh, face_strokes());
+    sculpt(skin.mesh, ear_strokes());
+    skin.neutral = skin.mesh.surface.positions;
+    for (std::uint32_t v = 0; v < skin.mesh.mirror.size(); ++v)
+        if (skin.mesh.mirror[v] >= v) set_mirrored(skin.mesh, v, shaped(character, skin.neutral[v]));
     close_lips(skin, "mouth.contact");
     close_lips(skin, "mouth.behind");
-    clear_eyeball(skin.mesh);
-    skin.mesh.surface.materials = {{"skin", {1, 1, 1, 1}, 0.55}};
-    skin.mesh.surface.colours = colours_of(skin.mesh.surface);
+    const EyePlace eye = left_eye_place(character);
+    seat_lids(skin, "eye.margin_back", eye);
+    clear_eyeball(skin.mesh, eye);
+    skin.mesh.surface.materials = {{"skin", {1, 1, 1, 1}, 0.5, "skin"}};
     return skin;
 }
 

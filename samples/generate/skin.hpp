@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cage.hpp"
+#include "character.hpp"
 #include "limit_surface.hpp"
 
 namespace mien::samples {
@@ -11,9 +12,11 @@ namespace mien::samples {
 struct Skin {
     Cage cage;
     MirroredSurface mesh;
+    std::vector<Vec3> neutral;  ///< where the neutral head has the vertices
 };
 
-/// The head's skin with the inner mouth: sampled, lips closed to a slit, lids fitted round the eyeball, coloured.
-Skin make_skin();
+/// The head's skin with the inner mouth: sampled, sculpted, given its character, lips closed to a slit, lids fitted
+/// round the eyeball.
+Skin make_skin(const Character& character);
 
 }  // namespace mien::samples

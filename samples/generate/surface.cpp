@@ -46,6 +46,18 @@ Surface joined_with_mirror(const Surface& half) {
     return result;
 }
 
+std::vector<Vec3> vertex_normals(const Surface& surface) {
+    std::vector<Vec3> normals(surface.positions.size());
+    for (const SurfaceFace& face : surface.faces) {
+        const std::size_t n = corner_count(face);
+        const auto at = [&](std::size_t k) { return surface.positions[face.corners[k]]; };
+        const Vec3 normal = n == 3 ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
+        for (std::size_t k = 0; k < n; ++k) normals[face.corners[k]] += normal;
+    }
+    for (Vec3& n : normals) n = n / length(n);
+    return normals;
+}
+
 void round_positions(Surface& surface) {
     for (Vec3& p : surface.positions) p = {rounded(p.x), rounded(p.y), rounded(p.z)};
 }

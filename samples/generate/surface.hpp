@@ -25,6 +25,8 @@ struct Material {
     std::string name;
     Colour colour;
     double roughness = 0.6;
+    std::string picture{};  ///< name of the picture that colours it, or nothing
+    bool two_sided = false;
 };
 
 /// What a face of the skin shows; it decides the vertex colours.
@@ -59,6 +61,9 @@ Surface mirrored(const Surface& surface, const std::string& name);
 
 /// A half joined with its mirror image; vertices at x = 0 are shared.
 Surface joined_with_mirror(const Surface& half);
+
+/// Per vertex, of length 1, weighted by area.
+std::vector<Vec3> vertex_normals(const Surface& surface);
 
 /// Rounds positions to a thousandth of a millimetre, so that the last bits of sin and cos do not show in the files.
 void round_positions(Surface& surface);

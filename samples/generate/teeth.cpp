@@ -21,7 +21,7 @@ struct Arch {
     double gum, gum_line, crown, front_edge, back_edge;  // heights
     std::array<double, teeth> widths;
 };
-constexpr Arch upper{"teeth_upper", 27, 39, 57, -52, -56.5, -60.5, -66.6, -65.2, {8.5, 6.5, 7.6, 7.1, 6.6, 10.4, 9.8}};
+constexpr Arch upper{"teeth_upper", 27, 40, 57, -53, -57.5, -61.8, -68.6, -66.6, {8.5, 6.5, 7.6, 7.1, 6.6, 10.4, 9.8}};
 constexpr Arch lower{"teeth_lower", 25.5,  36,    57,    -80,
                      -75.5,         -71.5, -65.6, -66.0, {5.3, 5.7, 6.8, 7.0, 7.1, 11.4, 10.8}};
 
@@ -93,7 +93,7 @@ void add_tube(Surface& half, std::uint32_t stations, bool up) {
 }
 
 Surface make_teeth(const Arch& arch) {
-    Surface half{arch.name, {}, {}, {{"gum", {.45, .14, .14, 1}, .35}, {"teeth", {.80, .76, .66, 1}, .25}}, {}};
+    Surface half{arch.name, {}, {}, {{"gums", {.45, .14, .14, 1}, .35}, {"teeth", {.80, .76, .66, 1}, .25}}, {}};
     const std::vector<double> angles = station_angles(arch);
     for (std::size_t s = 0; s < angles.size(); ++s)
         add_station(half, arch, angles[s], static_cast<double>(s) / static_cast<double>(angles.size() - 1),

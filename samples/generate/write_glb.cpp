@@ -11,6 +11,8 @@
 
 #include "write_surfaces.hpp"
 
+#include "mien/io/png.hpp"
+
 namespace mien::samples {
 namespace {
 
@@ -79,19 +81,6 @@ private:
 
 double rounded(double value, double steps) {
     return std::round(value * steps) / steps + 0.0;
-}
-
-// Per vertex of the part, weighted by area.
-std::vector<Vec3> normals_of(const Surface& part) {
-    std::vector<Vec3> normals(part.positions.size());
-    for (const SurfaceFace& face : part.faces) {
-        const std::size_t n = corner_count(face);
-        const auto at = [&](std::size_t k) { return part.positions[face.corners[k]]; };
-        const Vec3 normal = n == 3 ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
-        for (std::size_t k = 0; k < n; ++k) normals[face.corners[k]] += normal;
-    }
-    for (Vec3& n : normals) n = n / length(n);
-    return normals;
 }
 
 struct Glb {
@@ -175,11 +164,27 @@ std::string put_primitive(Glb& glb, const Surface& part, const std::vector<Vec3>
     return text + fmt::format(R"(}},"indices":{},"material":{}}})", indices, material);
 }
 
-std::string material_text(const Material& m) {
+std::string material_text(const Material& m, const Head& head) {
+    std::string picture;
+    for (std::size_t i = 0; i < head.pictures.size(); ++i)
+        if (head.pictures[i].name == m.picture) picture = fmt::format(R"("baseColorTexture":{{"index":{}}},)", i);
     return fmt::format(
-        R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},{}],"metallicFactor":0,"roughnessFactor":{}}}{}}})",
-        m.name, m.colour.r, m.colour.g, m.colour.b, m.colour.a, m.roughness,
-        m.colour.a < 1 ? R"(,"alphaMode":"BLEND")" : "");
+        R"({{"name":"{}","pbrMetallicRoughness":{{{}"baseColorFactor":[{},{},{},{}],"metallicFactor":0,"roughnessFactor":{}}}{}{}}})",
+        m.name, picture, m.colour.r, m.colour.g, m.colour.b, m.colour.a, m.roughness,
+        m.colour.a < 1 ? R"(,"alphaMode":"BLEND")" : "", m.two_sided ? R"(,"doubleSided":true)" : "");
+}
+
+// A picture in the buffer as PNG; returns its view's number.
+std::size_t put_picture(Glb& glb, const Picture& picture) {
+    const std::size_t start = glb.binary.size();
+    for (const std::byte b : format_png(picture)) glb.binary.push_back(static_cast<char>(b));
+    const std::size_t bytes = glb.binary.size() - start;
+    while (glb.binary.size() % 4 != 0) glb.binary.push_back('\0');
+    fmt::format_to(std::back_inserter(glb.views),
+                   ",\n"
+                   R"({{"buffer":0,"byteOffset":{},"byteLength":{}}})",
+                   start, bytes);
+    return static_cast<std::size_t>(glb.view_count++);
 }
 
 std::string joined(const std::vector<std::string>& items) {
@@ -213,27 +218,33 @@ std::size_t vertex_in_glb(const Surface& part, std::uint32_t vertex) {
     return before;
 }
 
-std::string format_glb(std::span<const Surface> parts) {
+std::string format_glb(const Head& head) {
     Glb glb;
     std::vector<std::string> meshes, nodes, materials;
     std::vector<std::size_t> roots;
     std::map<std::string, std::size_t> material_number;
-    for (const Surface& part : parts) {
-        const std::vector<Vec3> normals = normals_of(part);
+    for (const Surface& part : head.parts) {
+        const std::vector<Vec3> normals = vertex_normals(part);
         std::vector<std::string> primitives;
         for (std::uint32_t m = 0; m < part.materials.size(); ++m) {
             const auto [entry, is_new] = material_number.emplace(part.materials[m].name, materials.size());
-            if (is_new) materials.push_back(material_text(part.materials[m]));
+            if (is_new) materials.push_back(material_text(part.materials[m], head));
             primitives.push_back(put_primitive(glb, part, normals, PrimitiveMaker(part, m).result(), entry->second));
         }
         roots.push_back(nodes.size());
         nodes.push_back(fmt::format(R"({{"name":"{}","mesh":{}}})", part.name, nodes.size()));
         meshes.push_back(fmt::format(R"({{"name":"{}","primitives":[{}]}})", part.name, joined(primitives)));
     }
+    std::vector<std::string> images, textures;
+    for (const NamedPicture& p : head.pictures) {
+        textures.push_back(fmt::format(R"({{"source":{}}})", images.size()));
+        images.push_back(fmt::format(R"({{"name":"{}","mimeType":"image/png","bufferView":{}}})", p.name,
+                                     put_picture(glb, p.picture)));
+    }
     const std::string json = fmt::format(
-        R"({{"asset":{{"version":"2.0","generator":"mien_samples"}},"scene":0,"scenes":[{{"name":"sample","nodes":[{}]}}],"nodes":[{}],"meshes":[{}],"materials":[{}],"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
-        fmt::join(roots, ","), joined(nodes), joined(meshes), joined(materials), glb.accessors, glb.views,
-        glb.binary.size());
+        R"({{"asset":{{"version":"2.0","generator":"mien_samples"}},"scene":0,"scenes":[{{"name":"sample","nodes":[{}]}}],"nodes":[{}],"meshes":[{}],"materials":[{}],"textures":[{}],"images":[{}],"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
+        fmt::join(roots, ","), joined(nodes), joined(meshes), joined(materials), joined(textures), joined(images),
+        glb.accessors, glb.views, glb.binary.size());
     return container(json, glb.binary);
 }
 

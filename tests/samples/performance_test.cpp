@@ -14,7 +14,7 @@ namespace mien::samples {
 namespace {
 
 const Performance& performance() {
-    static const Performance made = perform(make_head());
+    static const Performance made = perform(make_head(cast().front()));
     return made;
 }
 
@@ -54,7 +54,7 @@ TEST(SamplePerformance, LastsEightSecondsAtSixtyRowsASecond) {
 
 TEST(SamplePerformance, EveryMarkerHasItsOwnFeaturePointOfTheHead) {
     std::set<std::string> ids, known;
-    for (const HeadPoint& p : make_head().points) known.insert(p.id);
+    for (const HeadPoint& p : make_head(cast().front()).points) known.insert(p.id);
     for (const Rename& name : performance().names) {
         EXPECT_TRUE(known.contains(name.to)) << name.from;
         ids.insert(name.to);
