@@ -123,6 +123,9 @@ void dress(Scene& scene, const Rig* rig) {
         }
         surface.material = found->second;
     }
+    for (Material& material : scene.materials)
+        if (material.alpha == Material::Alpha::blend && has_word(material.name, "cornea"))
+            material.colour = {0, 0, 0, material.colour[3]};
     for (std::uint32_t m = 0; m < given; ++m)
         if (may_be_skin(scene.materials[m]) && (m == skin || is_called_skin(scene.materials[m]))) {
             if (is_white(scene.materials[m])) scene.materials[m].colour = wardrobe.back().colour;

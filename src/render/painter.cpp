@@ -84,13 +84,16 @@ struct Painter::Shot {
     const Look& look;
     Ball all;  // round everything, from the camera's target
     std::vector<Lamp> lamps;
-    std::vector<Part> plain, small;  // solid; `small`: of few triangles and no less plain
-    std::vector<Part> special;       // solid, with light of its own or under tears
-    std::vector<Part> clear;         // see-through, from the farthest to the nearest
+    std::vector<Part> one_colour;  // solid, of many triangles
+    std::vector<Part> fine;        // the same with a picture or paint
+    std::vector<Part> coarse;      // solid, of few triangles
+    std::vector<Part> special;     // solid, with light of its own or under tears
+    std::vector<Part> clear;       // see-through, from the farthest to the nearest
 };
 
 Painter::Painter()
-    : quick_(shaders::quick_lit_vertex(), shaders::quick_lit_fragment()),
+    : one_colour_(shaders::quick_vertex(true), shaders::quick_fragment(true)),
+      quick_(shaders::quick_vertex(false), shaders::quick_fragment(false)),
       draft_(shaders::surface_vertex(), shaders::surface_fragment(false)),
       facts_(shaders::surface_vertex(), shaders::facts_fragment()),
       deferred_(shaders::cover_vertex, shaders::deferred_fragment()),
@@ -104,7 +107,7 @@ Painter::Painter()
       heat_(scale_picture(ColourScale::heat)),
       opposite_(scale_picture(ColourScale::opposite)),
       nothing_(GlName::Kind::vertex_array) {
-    for (GlProgram* program : {&quick_, &draft_, &facts_, &deferred_, &full_}) {
+    for (GlProgram* program : {&one_colour_, &quick_, &draft_, &facts_, &deferred_, &full_}) {
         program->use();
         int unit = 0;
         for (const char* name : {"colour_picture", "roughness_picture", "normal_picture", "emission_picture", "scale",
@@ -268,12 +271,13 @@ void Painter::draw_draft(const Shot& shot) {
         cover(background_);
     }
     const Matrix view = view_matrix(shot.camera, shot.all, {});
-    for (GlProgram* program : {&quick_, &draft_}) {
+    for (GlProgram* program : {&one_colour_, &quick_, &draft_}) {
         program->use();
         set_lamps(*program, shot.lamps);
     }
-    draw_parts(shot, shot.plain, quick_, view);
-    draw_parts(shot, shot.small, draft_, view);
+    draw_parts(shot, shot.one_colour, one_colour_, view);
+    draw_parts(shot, shot.fine, quick_, view);
+    draw_parts(shot, shot.coarse, draft_, view);
     draw_parts(shot, shot.special, draft_, view);
     draw_clear(shot, draft_, view);
     if (shot.look.wire) draw_wire(shot, view);
@@ -311,8 +315,7 @@ void Painter::draw_shadows(const Shot& shot, const ShadowView& shadow) {
 
 void Painter::draw_facts(const Shot& shot, const Matrix& view) {
     targets_->begin_facts();
-    draw_parts(shot, shot.plain, facts_, view);
-    draw_parts(shot, shot.small, facts_, view);
+    for (const auto* parts : {&shot.one_colour, &shot.fine, &shot.coarse}) draw_parts(shot, *parts, facts_, view);
 }
 
 namespace {
@@ -403,29 +406,39 @@ bool is_special(const Instance& model, const Piece& piece) {
     return piece.wet || material.unlit || material.emission != std::array<float, 3>{};
 }
 
-bool is_small(const Instance& model, const Piece& piece) {
+bool is_coarse(const Instance& model, const Piece& piece) {
     const auto& pictures = model.still->pictures_of[piece.material];
     return piece.index_count < 3 * many_triangles || pictures[1] || pictures[2];
 }
 
+bool is_one_colour(const Instance& model, const Piece& piece) {
+    return !model.painted && !model.still->pictures_of[piece.material][0] &&
+           model.still->materials[piece.material].alpha == Material::Alpha::opaque;
+}
+
 }  // namespace
 
-Picture Painter::draw(std::span<const Instance* const> models, const Camera& camera, const Look& look) {
-    Shot shot{models, camera, look, ball_of(*models.front(), camera.target), lamps_of(look, camera), {}, {}, {}, {}};
-    const Vec3 back = axes_of(camera).back;
-    for (const Instance* model : models) {
-        shot.all = joined(shot.all, ball_of(*model, camera.target));
+void Painter::sort_parts(Shot& shot) {
+    const Vec3 back = axes_of(shot.camera).back;
+    for (const Instance* model : shot.models)
         for (std::size_t p = 0; p < model->still->pieces.size(); ++p) {
             const Piece& piece = model->still->pieces[p];
-            std::vector<Part>& parts = is_blend(*model, piece)     ? shot.clear
-                                       : is_special(*model, piece) ? shot.special
-                                       : is_small(*model, piece)   ? shot.small
-                                                                   : shot.plain;
+            std::vector<Part>& parts = is_blend(*model, piece)        ? shot.clear
+                                       : is_special(*model, piece)    ? shot.special
+                                       : is_coarse(*model, piece)     ? shot.coarse
+                                       : is_one_colour(*model, piece) ? shot.one_colour
+                                                                      : shot.fine;
             parts.push_back({model, &piece, dot(back, moved(model->place, model->centres[p]))});
         }
-    }
     std::stable_sort(shot.clear.begin(), shot.clear.end(),
                      [](const Part& a, const Part& b) { return a.depth < b.depth; });
+}
+
+Picture Painter::draw(std::span<const Instance* const> models, const Camera& camera, const Look& look) {
+    Shot shot{models, camera, look, ball_of(*models.front(), camera.target), lamps_of(look, camera), {}, {},
+              {},     {},     {}};
+    for (const Instance* model : models) shot.all = joined(shot.all, ball_of(*model, camera.target));
+    sort_parts(shot);
     if (!targets_ || !targets_->fits(camera.width, camera.height)) {
         targets_.reset();
         targets_.emplace(camera.width, camera.height);

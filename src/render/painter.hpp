@@ -27,6 +27,7 @@ public:
 private:
     struct Shot;
     struct Part;
+    static void sort_parts(Shot& shot);
     void draw_draft(const Shot& shot);
     void draw_full(const Shot& shot);
     void draw_shadows(const Shot& shot, const ShadowView& shadow);
@@ -39,7 +40,7 @@ private:
     void take_up(const Shot& shot, const Instance& model, GlProgram& program);
     void cover(GlProgram& program);
 
-    GlProgram quick_, draft_, facts_, deferred_, full_, shadow_, wire_, mark_, background_, add_, develop_;
+    GlProgram one_colour_, quick_, draft_, facts_, deferred_, full_, shadow_, wire_, mark_, background_, add_, develop_;
     GlName heat_, opposite_, nothing_;  ///< `nothing_`: a vertex array without attributes
     std::optional<Targets> targets_;
 };

@@ -309,7 +309,7 @@ void main() {
 )";
 
 // Light at the vertices, for surfaces of many small triangles.
-const char* const quick_vertex = R"(
+const char* const quick_vertex_main = R"(
 layout(location = 0) in vec3 posed_position;
 layout(location = 1) in vec3 posed_normal;
 layout(location = 2) in vec2 corner_uv;
@@ -319,9 +319,13 @@ uniform bool double_sided;
 uniform float roughness, metallic;
 uniform vec4 colour;
 uniform vec3 scatter;
+#ifdef ONE_COLOUR
+out vec3 seen;
+#else
 out vec3 diffuse, reflected;
 out vec2 uv;
 out float value;
+#endif
 void main() {
     vec4 at = place * vec4(posed_position, 1.0);
     vec3 v = normalize(camera - at.xyz);
@@ -336,19 +340,24 @@ void main() {
     s.wetness = 0.0;
     part(s);
     float kept = 1.0 - metallic;
-    diffuse = kept * mix(ground, sky, 0.5 + 0.33 * s.n.y);
-    reflected = room_reflection(s, v);
+    vec3 into = kept * mix(ground, sky, 0.5 + 0.33 * s.n.y), off = room_reflection(s, v);
     for (int i = 0; i < lamps; ++i) {
-        diffuse += kept * light[i] * wrapped(dot(s.n, lamp[i]), scatter);
-        reflected += light[i] * reflection(i, s, v);
+        into += kept * light[i] * wrapped(dot(s.n, lamp[i]), scatter);
+        off += light[i] * reflection(i, s, v);
     }
+#ifdef ONE_COLOUR
+    seen = quick_film(colour.rgb * into + off);
+#else
+    diffuse = into;
+    reflected = off;
     uv = corner_uv;
     value = vertex_value;
+#endif
     gl_Position = view * at;
 }
 )";
 
-const char* const quick_fragment = R"(
+const char* const quick_fragment_main = R"(
 in vec3 diffuse, reflected;
 in vec2 uv;
 in float value;
@@ -369,8 +378,14 @@ void main() {
         base.rgb = from_srgb(texture(scale, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb);
         mirror *= 0.3;
     }
-    shown = vec4(to_srgb(film(base.rgb * diffuse + mirror)), 1.0);
+    shown = vec4(quick_film(base.rgb * diffuse + mirror), 1.0);
 }
+)";
+
+const char* const one_colour_fragment = R"(
+in vec3 seen;
+out vec4 shown;
+void main() { shown = vec4(seen, 1.0); }
 )";
 
 const std::string version = "#version 300 es\n";
@@ -414,12 +429,13 @@ std::string deferred_fragment() {
     return version + precisions + light_declarations + surface_facts + film + lobes + full_light + deferred_main;
 }
 
-std::string quick_lit_vertex() {
-    return version + precisions + light_declarations + surface_facts + lobes + quick_vertex;
+std::string quick_vertex(bool one_colour) {
+    return version + (one_colour ? "#define ONE_COLOUR\n" : "") + precisions + light_declarations + surface_facts +
+           film + lobes + quick_vertex_main;
 }
 
-std::string quick_lit_fragment() {
-    return version + precisions + film + quick_fragment;
+std::string quick_fragment(bool one_colour) {
+    return version + precisions + (one_colour ? one_colour_fragment : film + quick_fragment_main);
 }
 
 const std::string shadow_vertex = R"(#version 300 es

@@ -17,9 +17,9 @@ std::string surface_fragment(bool full);
 /// the surface is like, then one lamp with its shadow.
 std::string facts_fragment();
 std::string deferred_fragment();
-/// All lamps without shadows, at the vertices.
-std::string quick_lit_vertex();
-std::string quick_lit_fragment();
+/// All lamps without shadows, at the vertices. `one_colour`: neither a picture nor paint.
+std::string quick_vertex(bool one_colour);
+std::string quick_fragment(bool one_colour);
 /// Depth alone, as a lamp sees it.
 extern const std::string shadow_vertex, shadow_fragment;
 /// Plain colour: edges of triangles.

@@ -75,6 +75,15 @@ TEST(Dress, LightTravelsUnderWhatIsCalledSkinAndUnderWhatTheRigMovesMost) {
     EXPECT_GT(scene.materials[2].scatter[0], 0);
 }
 
+TEST(Dress, AClearCorneaHasNoColourOfItsOwn) {
+    Scene scene = scene_of_names({"eye_left"});
+    scene.materials[0].name = "Cornea";
+    scene.materials[0].colour = {1, 1, 1, 0.1F};
+    scene.materials[0].alpha = Material::Alpha::blend;
+    dress(scene);
+    EXPECT_EQ(worn(scene, 0).colour, (std::array<float, 4>{0, 0, 0, 0.1F}));
+}
+
 TEST(Dress, WhatTheFileSaysOfScatterIsKept) {
     Scene scene = scene_of_names({"a"});
     scene.materials[0].name = "skin";

@@ -17,6 +17,7 @@ namespace mien {
 /// - A material that is neither metal nor see-through and is called skin, head, face or body, or that most of the
 ///   vertices wear which the rig moves, lets light travel under it as skin does, unless it says how far itself. If it
 ///   is white all over it gets the colour of skin.
+/// - What is see-through and called cornea mirrors and has no colour of its own, which would lie on the iris like milk.
 ///
 /// `rig`: for the mesh of the same file (see `Surface::mesh_vertices`); may be null.
 void dress(Scene& scene, const Rig* rig = nullptr);
