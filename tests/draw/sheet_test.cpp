@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr Colour paper = SheetOptions{}.paper;
+const Colour paper = SheetOptions{}.paper;
 constexpr std::size_t line = 19;  // 1.4 sizes of 13 pixels, rounded up
 
 // A picture in which every pixel tells its place and the number of its picture.
