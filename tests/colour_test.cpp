@@ -37,9 +37,11 @@ double distance(const Lab& p, const Lab& q) {
 }
 
 TEST(HeatColour, takes_equal_steps_for_equal_differences_of_value) {
-    std::vector<double> steps;
-    for (int i = 0; i < 20; ++i)
-        steps.push_back(distance(oklab(heat_colour(i / 20.0)), oklab(heat_colour((i + 1) / 20.0))));
+    std::vector<double> steps(20);
+    for (std::size_t i = 0; i < 20; ++i) {
+        const double value = static_cast<double>(i) / 20;
+        steps[i] = distance(oklab(heat_colour(value)), oklab(heat_colour(value + 0.05)));
+    }
     const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
     EXPECT_GT(*least, 0.03);
     EXPECT_LT(*most / *least, 1.1);  // 8 bits round a step of 0.04 by up to 0.002
