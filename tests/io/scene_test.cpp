@@ -493,7 +493,7 @@ TEST(IoScene, a_flat_mesh_has_one_normal_and_its_morphs_move_every_copy_of_a_ver
     Mesh mesh = shapes::grid(2, 2);
     mesh.corner_uvs.clear();
     for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) mesh.corner_uvs.push_back({static_cast<float>(c), 0});
-    const std::uint32_t shared = mesh.face_vertices[0];
+    const std::uint32_t shared = 4;  // of all four squares
     mesh.morph_targets.push_back({"up", {shared}, {{0, 0, 2}}});
     const Scene scene = scene_of(mesh);
     ASSERT_TRUE(hostile::keeps_promise(scene));
@@ -501,6 +501,7 @@ TEST(IoScene, a_flat_mesh_has_one_normal_and_its_morphs_move_every_copy_of_a_ver
     for (const Vec3f& normal : surface.normals) EXPECT_EQ(std::abs(normal.z), 1);
     std::size_t copies = 0;
     for (const std::uint32_t v : surface.mesh_vertices) copies += v == shared ? 1 : 0;
+    EXPECT_EQ(copies, 4U);
     EXPECT_EQ(surface.morphs.at(0).vertices.size(), copies);
     for (const std::uint32_t v : surface.morphs[0].vertices) EXPECT_EQ(surface.mesh_vertices[v], shared);
 }
