@@ -63,6 +63,7 @@ Face load_face(const FaceFlags& flags, Report& report) {
     head["vertices"] = vertex_count(mesh);
     head["faces"] = face_count(mesh);
     head["feature_points"] = points.points.size();
+    for (const std::string& sentence : mesh.left_out) warn(report, "left out: " + sentence);
     for (const std::string& sentence : points.warnings) warn(report, sentence);
     return {std::move(mesh), std::move(points.points)};
 }

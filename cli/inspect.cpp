@@ -64,6 +64,7 @@ void inspect_mesh(const Mesh& mesh, Report& report) {
     report["centre"] = xyz(0.5 * (box.low + box.high));
     if (const Report odd = oddities(check); !odd.empty()) report["odd"] = odd;
     inspect_parts(mesh, report);
+    for (const std::string& sentence : mesh.left_out) warn(report, "left out: " + sentence);
 }
 
 void inspect_points(const std::filesystem::path& path, const Mesh& mesh, Report& report) {

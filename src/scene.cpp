@@ -132,13 +132,6 @@ void play(const Channel& channel, double time, std::vector<Local>& locals, Scene
     }
 }
 
-Affine map_of(const Local& local) {
-    const Quaternion q = unit(local.rotation);
-    return {{local.scale.x * rotate(q, {1, 0, 0}), local.scale.y * rotate(q, {0, 1, 0}),
-             local.scale.z * rotate(q, {0, 0, 1})},
-            local.translation};
-}
-
 std::vector<Local> locals_at_rest(const Scene& scene) {
     std::vector<Local> locals;
     locals.reserve(scene.nodes.size());
@@ -157,7 +150,8 @@ ScenePose placed(const Scene& scene, const std::vector<Local>& locals, ScenePose
     pose.worlds.reserve(scene.nodes.size());
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
-        const Affine local = node.matrix ? *node.matrix : map_of(locals[n]);
+        const Affine local =
+            node.matrix ? *node.matrix : affine_map(locals[n].translation, unit(locals[n].rotation), locals[n].scale);
         pose.worlds.push_back(node.parent ? pose.worlds[*node.parent] * local : local);
     }
     return pose;

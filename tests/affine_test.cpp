@@ -3,6 +3,7 @@
 
 #include "mien/affine.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace mien {
@@ -22,6 +23,12 @@ TEST(Affine, a_product_does_the_right_map_first) {
     EXPECT_NE(moved(shear * turn, p), moved(turn, moved(shear, p)));
     EXPECT_EQ(shear * Affine{}, shear);
     EXPECT_EQ(Affine{} * shear, shear);
+}
+
+TEST(Affine, a_map_of_parts_scales_then_turns_then_shifts) {
+    const Affine map = affine_map({10, 0, 0}, {0, 0, std::sqrt(0.5), std::sqrt(0.5)}, {2, 3, 4});  // +x to +y
+    EXPECT_LT(distance(moved(map, {1, 0, 0}), {10, 2, 0}), 1e-14);
+    EXPECT_LT(distance(moved(map, {0, 1, 1}), {7, 0, 4}), 1e-14);
 }
 
 TEST(Affine, the_determinant_is_the_volume_of_a_unit_cube_and_negative_when_mirrored) {

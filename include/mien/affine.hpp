@@ -31,6 +31,13 @@ constexpr Affine operator*(const Affine& a, const Affine& b) {
     return {{turned(a, b.columns[0]), turned(a, b.columns[1]), turned(a, b.columns[2])}, moved(a, b.offset)};
 }
 
+/// What scales first, then turns, then shifts.
+constexpr Affine affine_map(const Vec3& translation, const Quaternion& rotation, const Vec3& scale) {
+    return {{scale.x * rotate(rotation, {1, 0, 0}), scale.y * rotate(rotation, {0, 1, 0}),
+             scale.z * rotate(rotation, {0, 0, 1})},
+            translation};
+}
+
 /// How much volumes grow; negative for a map that mirrors.
 constexpr double determinant(const Affine& map) {
     return dot(map.columns[0], cross(map.columns[1], map.columns[2]));

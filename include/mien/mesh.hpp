@@ -49,6 +49,7 @@ struct Mesh {
     /// The glTF document the mesh came from, as one self-contained, uncompressed GLB, so that materials, textures,
     /// attributes and other nodes survive on the way out. Empty for every other format.
     std::vector<std::byte> gltf;
+    std::vector<std::string> left_out;  ///< what the file names and the mesh goes without, a sentence each: pictures
 };
 
 inline std::size_t vertex_count(const Mesh& mesh) {

@@ -47,13 +47,17 @@ struct Surface {
     std::vector<Vec3f> positions;          ///< at rest, in the node's space; file order
     std::vector<Vec3f> normals;            ///< one per vertex, of length 1; empty: the file has none
     std::vector<Vec2f> uvs;                ///< one per vertex or empty
-    std::vector<std::uint32_t> triangles;  ///< three vertices each, counter-clockwise seen from outside
+    std::vector<std::uint32_t> triangles;  ///< three vertices each, counter-clockwise seen from outside in the
+                                           ///< node's space; a world map that mirrors turns them round
     std::uint32_t material = 0;            ///< index into Scene::materials
     std::vector<MorphTarget> morphs;       ///< deltas in the node's space
     std::uint32_t influences = 0;          ///< joints per vertex; 0: no skin
     std::vector<std::uint16_t> joints;     ///< vertices x influences: indices into the skin's joints
     std::vector<float> weights;            ///< vertices x influences: not negative, a vertex's add up to 1
     std::optional<std::uint32_t> skin;     ///< index into Scene::skins; set when `influences` is not 0
+    /// One per vertex: its number among the vertices of the Mesh that is read from the same file, which the rows of a
+    /// Rig count by.
+    std::vector<std::uint32_t> mesh_vertices;
 };
 
 /// A place in the tree of the scene. Parents come before their children.
@@ -88,7 +92,7 @@ struct Channel {
 
 /// Everything that is drawn, at rest, and how it moves. All indices are in range, all numbers finite.
 struct Scene {
-    std::vector<Surface> surfaces;  ///< in file order: meshes, then primitives
+    std::vector<Surface> surfaces;  ///< in file order: meshes, then primitives, then the nodes that show them
     std::vector<Material> materials;
     std::vector<Picture> pictures;
     std::vector<Node> nodes;

@@ -119,7 +119,7 @@ GltfDocument parse_glb(std::span<const std::byte> bytes) {
     const Chunk first = next_chunk(container, at);
     if (first.type != json_type)
         fail(header_size + 4, fmt::format("expected a JSON chunk first, found type {:#010x}", first.type));
-    GltfDocument document{parse_gltf_json(first.content), {}};
+    GltfDocument document{parse_gltf_json(first.content), {}, {}};
     for (bool second = true; at < container.size(); second = false) {
         const Chunk chunk = next_chunk(container, at);
         if (second && chunk.type == bin_type) document.binary.assign(chunk.content.begin(), chunk.content.end());

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace mien {
@@ -14,6 +15,7 @@ namespace mien {
 struct GltfDocument {
     nlohmann::json json;
     std::vector<std::byte> binary;
+    std::vector<std::string> left_out{};  ///< what the file names and the document goes without, a sentence each
 };
 
 /// Splits a GLB container into its JSON and BIN chunks. Throws Error naming the byte, expected and found: magic,

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,6 +19,7 @@
 #include "io/gltf_accessors.hpp"
 #include "io/gltf_builder.hpp"
 #include "io/gltf_fresh.hpp"
+#include "io/gltf_primitive.hpp"
 #include "io/gltf_rest_pose.hpp"
 #include "io/gltf_unused.hpp"
 #include "io/rig_extension.hpp"
@@ -118,27 +118,12 @@ void place_tangents(GltfDocument& document, json& attributes, const Placement& p
     attributes["TANGENT"] = append_floats(document, placed, Elements::vec4, BufferTarget::vertices);
 }
 
-std::vector<std::uint32_t> drawn_vertices(const GltfDocument& document, const json& primitive, std::size_t vertices,
-                                          const std::string& pointer) {
-    if (primitive.contains("indices"))
-        return read_indices(document, primitive["indices"].get<std::size_t>(), pointer + "/indices");
-    std::vector<std::uint32_t> drawn(vertices);
-    std::iota(drawn.begin(), drawn.end(), 0U);
-    return drawn;
-}
-
 // Turns the triangles of a primitive round: strips and fans become lists. Points and lines stay.
-void turn_triangles(GltfDocument& document, json& primitive, std::size_t vertices, const std::string& pointer) {
-    const int mode = primitive.value("mode", 4);
-    if (mode < 4) return;
-    const std::vector<std::uint32_t> drawn = drawn_vertices(document, primitive, vertices, pointer);
-    std::vector<std::uint32_t> round;
-    for (std::size_t i = 0; i + 2 < drawn.size(); i += mode == 4 ? 3 : 1) {
-        const std::uint32_t a = drawn[mode == 6 ? 0 : i], b = drawn[i + 1], c = drawn[i + 2];
-        // Every second triangle of a strip runs the other way round.
-        const bool odd = mode == 5 && i % 2 == 1;
-        round.insert(round.end(), {a, odd ? b : c, odd ? c : b});
-    }
+void turn_triangles(GltfDocument& document, json& primitive, const Placement& placement, std::size_t vertices,
+                    const std::string& pointer) {
+    ReadBudget budget = read_budget(document.binary.size());
+    const std::vector<std::uint32_t> round =
+        triangles_of({&document, &primitive, pointer, vertices, 0, placement.maps}, budget);
     if (round.empty()) return;
     primitive["indices"] = append_indices(document, round);
     primitive["mode"] = 4;
@@ -173,14 +158,14 @@ WrittenPrimitive place_part(GltfDocument& document, const Mesh& mesh, const Part
     json& attributes = primitive.at("attributes");
     const std::size_t count = accessor_count(document, attributes.at("POSITION").get<std::size_t>());
     WrittenPrimitive written{part.mesh, part.primitive, vertices_of(mesh, part, count)};
-    const Placement placement{vertex_maps(document, standing, primitive, count, pointer)};
+    const Placement placement{vertex_maps(standing, {&document, &primitive, pointer, count})};
     const auto positions = std::span(mesh.positions).subspan(part.first_vertex, part.vertex_count);
     if (!is_in_place(document, attributes["POSITION"].get<std::size_t>(), positions, pointer))
         attributes["POSITION"] = append_vectors(document, positions, BufferTarget::vertices, Bounds::given);
     const bool turns = !placement.keeps();
     if (turns && attributes.contains("NORMAL")) place_normals(document, attributes, placement, pointer);
     if (turns && attributes.contains("TANGENT")) place_tangents(document, attributes, placement, pointer);
-    if (placement.mirrors()) turn_triangles(document, primitive, count, pointer);
+    if (placement.mirrors()) turn_triangles(document, primitive, placement, count, pointer);
     document.json["meshes"][part.mesh]["primitives"][part.primitive] = std::move(primitive);
     return written;
 }

@@ -11,14 +11,18 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
 #include "io/gltf_json.hpp"
+#include "io/gltf_missing.hpp"
 #include "io/gltf_references.hpp"
 #include "io/gltf_uri.hpp"
 #include "io/json_text.hpp"
 #include "io/text.hpp"
+
+#include "mien/error.hpp"
 
 namespace mien {
 
@@ -165,15 +169,31 @@ void take_picture(Growing& out, json& root, json& image, const std::string& poin
     root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", place.offset}, {"byteLength", place.size}});
 }
 
-void take_pictures(Growing& out, json& root) {
+std::string picture_name(const json& image, std::size_t number) {
+    const std::string name = text_member(image, "name", fmt::format("/images/{}", number));
+    return name.empty() ? fmt::format("picture {}", number) : fmt::format("picture {} {}", number, shown(name));
+}
+
+// A head does without a picture that is not there. Which one, and why, is said.
+void take_pictures(Growing& out, GltfDocument& document) {
+    json& root = document.json;
     const std::size_t images = element_count(root, "images");
-    for (std::size_t i = 0; i < images; ++i)
-        if (root["images"][i].contains("uri")) take_picture(out, root, root["images"][i], fmt::format("/images/{}", i));
+    std::set<std::size_t> missing;
+    for (std::size_t i = 0; i < images; ++i) {
+        if (!root["images"][i].contains("uri")) continue;
+        try {
+            take_picture(out, root, root["images"][i], fmt::format("/images/{}", i));
+        } catch (const Error& error) {
+            document.left_out.push_back(fmt::format("{}: {}", picture_name(root["images"][i], i), error.what()));
+            missing.insert(i);
+        }
+    }
+    drop_pictures(root, missing);
 }
 
 GltfDocument parsed(Bytes bytes) {
     const bool binary = as_text(bytes).substr(0, 4) == "glTF";
-    return binary ? parse_glb(bytes) : GltfDocument{parse_gltf_json(bytes), {}};
+    return binary ? parse_glb(bytes) : GltfDocument{parse_gltf_json(bytes), {}, {}};
 }
 
 }  // namespace
@@ -198,7 +218,7 @@ GltfDocument load_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     Growing out{document.binary, fetch, {}};
     const std::vector<Place> places = place_buffers(out, array_member(root, "buffers", ""));
     if (root.contains("bufferViews")) move_views(root["bufferViews"], places);
-    take_pictures(out, root);
+    take_pictures(out, document);
     root.erase("buffers");
     if (!document.binary.empty()) root["buffers"] = json::array({{{"byteLength", document.binary.size()}}});
     return document;

@@ -22,6 +22,13 @@ std::string below(const std::string& pointer, const char* name) {
     return pointer + '/' + name;
 }
 
+double finite_number(const json& value, const std::string& pointer) {
+    if (!value.is_number()) fail_found(pointer, "a number", value);
+    const auto number = value.get<double>();
+    if (!std::isfinite(number)) fail_found(pointer, "a finite number", value);
+    return number;
+}
+
 }  // namespace
 
 void fail_at(const std::string& pointer, std::string_view expected, std::string_view found) {
@@ -77,6 +84,23 @@ std::uint64_t whole_member(const json& object, const char* name, const std::stri
     const std::optional<std::uint64_t> found = find_whole(object, name, pointer);
     if (!found && !fallback) fail_at(below(pointer, name), "a whole number", "none");
     return found ? *found : *fallback;
+}
+
+double number_member(const json& object, const char* name, const std::string& pointer, double fallback) {
+    const json* found = find_member(object, name, pointer);
+    return found == nullptr ? fallback : finite_number(*found, below(pointer, name));
+}
+
+std::optional<std::vector<double>> find_numbers(const json& object, const char* name, std::size_t size,
+                                                const std::string& pointer) {
+    const json* found = find_member(object, name, pointer);
+    if (found == nullptr) return std::nullopt;
+    const std::string place = below(pointer, name);
+    if (!found->is_array() || found->size() != size) fail_found(place, fmt::format("{} numbers", size), *found);
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < size; ++i)
+        numbers.push_back(finite_number((*found)[i], fmt::format("{}/{}", place, i)));
+    return numbers;
 }
 
 bool bool_member(const json& object, const char* name, const std::string& pointer) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mien {
 
@@ -34,6 +35,13 @@ std::uint64_t whole_member(const nlohmann::json& object, const char* name, const
 /// A member that has to be true or false, and one that has to be a text; false and empty where there is none.
 bool bool_member(const nlohmann::json& object, const char* name, const std::string& pointer);
 std::string text_member(const nlohmann::json& object, const char* name, const std::string& pointer);
+
+/// A member that has to be a finite number; the fallback where there is none.
+double number_member(const nlohmann::json& object, const char* name, const std::string& pointer, double fallback);
+
+/// A member that has to be an array of `size` finite numbers; nothing where there is none.
+std::optional<std::vector<double>> find_numbers(const nlohmann::json& object, const char* name, std::size_t size,
+                                                const std::string& pointer);
 
 /// `value` itself as a whole number from 0 to 2^53.
 std::uint64_t whole_number(const nlohmann::json& value, const std::string& pointer);

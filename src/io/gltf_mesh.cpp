@@ -69,7 +69,8 @@ void add_primitive(Growing& out, const Primitive& primitive, Part part, const st
     part.first_face = static_cast<std::uint32_t>(face_count(out.mesh));
     add_positions(out, primitive);
     add_faces(out, primitive);
-    for (std::size_t t = 0; t < names.size(); ++t) add_morph(primitive, t, out.budget, target_of(out, names[t]));
+    for (std::size_t t = 0; t < names.size(); ++t)
+        add_morph(primitive, t, primitive.first_vertex, out.budget, target_of(out, names[t]));
     part.face_count = static_cast<std::uint32_t>(face_count(out.mesh)) - part.first_face;
     out.mesh.parts.push_back(std::move(part));
 }
@@ -79,7 +80,7 @@ void add_mesh(Growing& out, std::size_t m, const Standing& standing) {
     std::uint32_t number = 0;
     for (Primitive& primitive : primitives_of(out.document, m)) {
         primitive.first_vertex = static_cast<std::uint32_t>(vertex_count(out.mesh));
-        primitive.maps = vertex_maps(out.document, standing, *primitive.value, primitive.vertices, primitive.pointer);
+        primitive.maps = vertex_maps(standing, primitive);
         add_primitive(out, primitive, {part_name(out, m, standing), static_cast<std::uint32_t>(m), number++}, names);
     }
 }
@@ -106,6 +107,7 @@ Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch) {
     if (!out.any_uvs) out.mesh.corner_uvs.clear();
     out.mesh.unit.assign(1, 'm');
     out.mesh.gltf = format_glb(document);
+    out.mesh.left_out = document.left_out;
     return std::move(out.mesh);
 }
 

@@ -8,8 +8,8 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include "io/gltf_json.hpp"
 
@@ -23,46 +23,21 @@ std::string pointer_of(std::size_t node) {
     return fmt::format("/nodes/{}", node);
 }
 
-// `size` finite numbers, or nothing where there is no such member.
-template <std::size_t size>
-std::optional<std::array<double, size>> find_numbers(const json& node, const char* name, const std::string& pointer) {
-    const json* found = find_member(node, name, pointer);
-    if (found == nullptr) return std::nullopt;
-    const std::string below = fmt::format("{}/{}", pointer, name);
-    if (!found->is_array() || found->size() != size) fail_found(below, fmt::format("{} numbers", size), *found);
-    std::array<double, size> numbers{};
-    for (std::size_t i = 0; i < size; ++i) {
-        if (!(*found)[i].is_number()) fail_found(fmt::format("{}/{}", below, i), "a number", (*found)[i]);
-        numbers[i] = (*found)[i].get<double>();
-        if (!std::isfinite(numbers[i])) fail_found(fmt::format("{}/{}", below, i), "a finite number", (*found)[i]);
-    }
-    return numbers;
-}
-
 // Exporters write quaternions in few digits: the length is taken out. One of no length turns nothing.
-Quaternion unit(const std::array<double, 4>& q) {
+Quaternion unit(const std::vector<double>& q) {
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (length == 0) return {};
     return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
 }
 
-Affine local_map(const json& node, const std::string& pointer) {
-    if (const auto matrix = find_numbers<16>(node, "matrix", pointer)) return affine_from_columns(*matrix);
-    const auto t = find_numbers<3>(node, "translation", pointer);
-    const auto r = find_numbers<4>(node, "rotation", pointer);
-    const auto s = find_numbers<3>(node, "scale", pointer).value_or(std::array{1.0, 1.0, 1.0});
-    Affine map;
-    if (r) map.columns = {rotate(unit(*r), {1, 0, 0}), rotate(unit(*r), {0, 1, 0}), rotate(unit(*r), {0, 0, 1})};
-    for (std::size_t c = 0; c < 3; ++c) map.columns[c] = map.columns[c] * s[c];
-    if (t) map.offset = {(*t)[0], (*t)[1], (*t)[2]};
-    return map;
+Affine local_map(const json& value, std::size_t number) {
+    const Node node = read_node(value, number);
+    return node.matrix ? *node.matrix : affine_map(node.translation, node.rotation, node.scale);
 }
 
 bool is_finite_map(const Affine& map) {
     return is_finite(map.columns[0]) && is_finite(map.columns[1]) && is_finite(map.columns[2]) && is_finite(map.offset);
 }
-
-constexpr auto no_parent = static_cast<std::size_t>(-1);
 
 struct Tree {
     std::vector<std::vector<std::size_t>> children;
@@ -124,7 +99,7 @@ std::vector<Affine> world_maps(const json& nodes, const Tree& tree) {
     check_all_reached(tree, order);
     std::vector<Affine> worlds(nodes.size());
     for (const std::size_t n : order) {
-        const Affine local = local_map(nodes[n], pointer_of(n));
+        const Affine local = local_map(nodes[n], n);
         worlds[n] = tree.parents[n] == no_parent ? local : worlds[tree.parents[n]] * local;
         if (!is_finite_map(worlds[n])) fail_at(pointer_of(n), "a finite transform", "one that runs over");
     }
@@ -150,14 +125,28 @@ std::vector<std::size_t> scene_roots(const json& root, const Tree& tree) {
 
 }  // namespace
 
-Affine affine_from_columns(const std::array<double, 16>& m) {
+Affine affine_from_columns(std::span<const double, 16> m) {
     return {{Vec3{m[0], m[1], m[2]}, Vec3{m[4], m[5], m[6]}, Vec3{m[8], m[9], m[10]}}, {m[12], m[13], m[14]}};
+}
+
+Node read_node(const json& value, std::size_t number) {
+    const std::string pointer = pointer_of(number);
+    Node node;
+    node.name = text_member(value, "name", pointer);
+    if (const auto matrix = find_numbers(value, "matrix", 16, pointer))
+        node.matrix = affine_from_columns(std::span<const double, 16>(*matrix));
+    if (const auto t = find_numbers(value, "translation", 3, pointer)) node.translation = {(*t)[0], (*t)[1], (*t)[2]};
+    if (const auto r = find_numbers(value, "rotation", 4, pointer)) node.rotation = unit(*r);
+    if (const auto s = find_numbers(value, "scale", 3, pointer)) node.scale = {(*s)[0], (*s)[1], (*s)[2]};
+    return node;
 }
 
 SceneNodes scene_nodes(const GltfDocument& document) {
     const json& nodes = array_member(document.json, "nodes", "");
     const Tree tree = tree_of(nodes);
-    return {world_maps(nodes, tree), depth_first(tree, scene_roots(document.json, tree))};
+    std::vector<Affine> worlds = world_maps(nodes, tree);
+    return {std::move(worlds), depth_first(tree, scene_roots(document.json, tree)), depth_first(tree, roots_of(tree)),
+            tree.parents};
 }
 
 }  // namespace mien

@@ -34,7 +34,7 @@ void check_counts(const Primitive& primitive) {
     }
 }
 
-std::size_t target_count(const json& primitive, const std::string& pointer) {
+std::size_t targets_of(const json& primitive, const std::string& pointer) {
     return array_member(primitive, "targets", pointer).size();
 }
 
@@ -88,8 +88,8 @@ Triangle triangle(Mode mode, const std::vector<std::uint32_t>& indices, std::siz
 }  // namespace
 
 ReadBudget read_budget(std::uint64_t bytes) {
-    return {(1U << 18U) + 6 * bytes, (1U << 19U) + 8 * bytes,  (1U << 21U) + 96 * bytes,
-            (1U << 19U) + 8 * bytes, (1U << 20U) + 24 * bytes, (1U << 19U) + 8 * bytes};
+    return {(1U << 18U) + 6 * bytes,  (1U << 19U) + 8 * bytes, (1U << 21U) + 96 * bytes, (1U << 19U) + 8 * bytes,
+            (1U << 20U) + 24 * bytes, (1U << 19U) + 8 * bytes, (1U << 17U) + bytes / 16};
 }
 
 void spend(std::uint64_t& left, std::uint64_t amount, const char* what, const std::string& pointer) {
@@ -103,8 +103,8 @@ std::vector<Primitive> primitives_of(const GltfDocument& document, std::size_t m
     std::vector<Primitive> primitives;
     for (std::size_t p = 0; p < values.size(); ++p) {
         const std::string below = fmt::format("{}/primitives/{}", pointer, p);
-        const std::size_t first = target_count(values[0], pointer + "/primitives/0");
-        const std::size_t targets = target_count(values[p], below);
+        const std::size_t first = targets_of(values[0], pointer + "/primitives/0");
+        const std::size_t targets = targets_of(values[p], below);
         if (targets != first)
             fail_at(below + "/targets", fmt::format("{} as in the first primitive", first), std::to_string(targets));
         primitives.push_back(primitive_of(document, values[p], below));
@@ -170,11 +170,15 @@ std::vector<Vec2f> uvs_of(const Primitive& primitive, std::uint64_t set) {
     return uvs;
 }
 
+std::size_t target_count(const GltfDocument& document, std::size_t mesh) {
+    const std::string pointer = fmt::format("/meshes/{}", mesh);
+    const json& primitives = array_member(document.json["meshes"][mesh], "primitives", pointer);
+    return primitives.empty() ? 0 : targets_of(primitives[0], pointer + "/primitives/0");
+}
+
 std::vector<std::string> target_names(const GltfDocument& document, std::size_t number) {
     const json& mesh = document.json["meshes"][number];
-    const json& primitives = array_member(mesh, "primitives", fmt::format("/meshes/{}", number));
-    const std::size_t targets =
-        primitives.empty() ? 0 : target_count(primitives[0], fmt::format("/meshes/{}/primitives/0", number));
+    const std::size_t targets = target_count(document, number);
     const json* extras = mesh.contains("extras") && mesh["extras"].is_object() ? &mesh["extras"] : nullptr;
     const json* given = extras != nullptr && extras->contains("targetNames") ? &(*extras)["targetNames"] : nullptr;
     std::vector<std::string> names;
@@ -191,7 +195,8 @@ std::vector<std::string> target_names(const GltfDocument& document, std::size_t 
     return names;
 }
 
-void add_morph(const Primitive& primitive, std::size_t target, ReadBudget& budget, MorphTarget& morph) {
+void add_morph(const Primitive& primitive, std::size_t target, std::uint32_t first, ReadBudget& budget,
+               MorphTarget& morph) {
     const std::string above = fmt::format("{}/targets/{}", primitive.pointer, target), pointer = above + "/POSITION";
     const auto accessor = find_accessor((*primitive.value)["targets"][target], "POSITION", above);
     if (!accessor || primitive.vertices == 0) return;
@@ -204,7 +209,7 @@ void add_morph(const Primitive& primitive, std::size_t target, ReadBudget& budge
     for (std::size_t v = 0; v < primitive.vertices; ++v) {
         const Vec3f delta = checked_float(turned(primitive.map(v), vec3_at(numbers, v)), pointer);
         if (delta == Vec3f{}) continue;
-        morph.vertices.push_back(primitive.first_vertex + static_cast<std::uint32_t>(v));
+        morph.vertices.push_back(first + static_cast<std::uint32_t>(v));
         morph.deltas.push_back(delta);
     }
     spend(budget.morph_deltas, morph.vertices.size() - before, "vertices that morph targets move", pointer);

@@ -22,7 +22,8 @@ namespace mien {
 /// How much may still be read. Primitives, places and channels may share one accessor, so that a small file asks for
 /// any amount: what is read may grow with the bytes that are there, far beyond what any exporter reaches.
 struct ReadBudget {
-    std::uint64_t vertices = 0, corners = 0, morph_vertices = 0, morph_deltas = 0, influences = 0, key_numbers = 0;
+    std::uint64_t vertices = 0, corners = 0, morph_vertices = 0, morph_deltas = 0, influences = 0, key_numbers = 0,
+                  targets = 0;
 };
 ReadBudget read_budget(std::uint64_t bytes);
 
@@ -65,10 +66,14 @@ std::vector<std::uint32_t> triangles_of(const Primitive& primitive, ReadBudget& 
 /// One texture coordinate a vertex of set number `set`; nothing where the primitive has no such set.
 std::vector<Vec2f> uvs_of(const Primitive& primitive, std::uint64_t set);
 
+/// How many morph targets a mesh has.
+std::size_t target_count(const GltfDocument& document, std::size_t mesh);
+
 /// The names of a mesh's targets, each once: what has none is called by its number, and what comes again gets one.
 std::vector<std::string> target_names(const GltfDocument& document, std::size_t mesh);
 
-/// Adds what target number `target` of the primitive moves to `morph`.
-void add_morph(const Primitive& primitive, std::size_t target, ReadBudget& budget, MorphTarget& morph);
+/// Adds what target number `target` of the primitive moves to `morph`, whose vertices count from `first` on.
+void add_morph(const Primitive& primitive, std::size_t target, std::uint32_t first, ReadBudget& budget,
+               MorphTarget& morph);
 
 }  // namespace mien

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "io/gltf_accessors.hpp"
+#include "io/gltf_binding.hpp"
 #include "io/gltf_json.hpp"
 
 namespace mien {
@@ -18,23 +18,11 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<Affine> joint_maps(const GltfDocument& document, const SceneNodes& nodes, std::size_t skin) {
-    const std::string pointer = fmt::format("/skins/{}", skin);
-    const json& value = document.json["skins"][skin];
-    const json& joints = array_member(value, "joints", pointer);
+std::vector<Affine> joint_maps(const GltfDocument& document, const SceneNodes& nodes, std::size_t number) {
+    const DocumentSkin skin = read_skin(document, number);
     std::vector<Affine> maps;
-    for (const json& joint : joints) maps.push_back(nodes.worlds.at(whole_number(joint, pointer + "/joints")));
-    const auto accessor = find_whole(value, "inverseBindMatrices", pointer);
-    if (!accessor) return maps;
-    const std::vector<float> numbers = read_floats(document, *accessor, 16, pointer + "/inverseBindMatrices");
-    if (numbers.size() / 16 < maps.size())
-        fail_at(pointer + "/inverseBindMatrices", fmt::format("{} matrices", maps.size()),
-                std::to_string(numbers.size() / 16));
-    for (std::size_t j = 0; j < maps.size(); ++j) {
-        std::array<double, 16> matrix{};
-        for (std::size_t i = 0; i < 16; ++i) matrix[i] = numbers[j * 16 + i];
-        maps[j] = maps[j] * affine_from_columns(matrix);
-    }
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+        maps.push_back(nodes.worlds.at(skin.joints[j]) * skin.inverse_binds[j]);
     return maps;
 }
 
@@ -55,24 +43,11 @@ struct Blend {
     std::vector<double> weights;
 };
 
-void add_set(Blend& blend, const GltfDocument& document, const Standing& standing, const json& attributes, unsigned set,
-             const std::string& pointer) {
-    const std::string joints_pointer = fmt::format("{}/JOINTS_{}", pointer, set);
-    const std::string weights_pointer = fmt::format("{}/WEIGHTS_{}", pointer, set);
-    const std::vector<std::uint32_t> joints =
-        read_joints(document, whole_member(attributes, fmt::format("JOINTS_{}", set).c_str(), pointer), joints_pointer);
-    const std::vector<float> weights = read_floats(
-        document, whole_member(attributes, fmt::format("WEIGHTS_{}", set).c_str(), pointer), 4, weights_pointer);
-    const std::size_t entries = blend.sums.size() * 4;
-    if (joints.size() != entries || weights.size() != entries)
-        fail_at(joints_pointer, fmt::format("joints and weights of {} vertices", blend.sums.size()),
-                fmt::format("{} and {}", joints.size() / 4, weights.size() / 4));
-    for (std::size_t e = 0; e < entries; ++e) {
-        if (joints[e] >= standing.joints.size())
-            fail_at(joints_pointer, fmt::format("one of the {} joints of the skin", standing.joints.size()),
-                    fmt::format("{} at vertex {}", joints[e], e / 4));
-        add(blend.sums[e / 4], scaled(standing.joints[joints[e]], weights[e]));
-        blend.weights[e / 4] += weights[e];
+void add_set(Blend& blend, const Standing& standing, const Primitive& primitive, unsigned number) {
+    const JointSet set = read_joint_set(primitive, number, standing.joints.size());
+    for (std::size_t e = 0; e < set.joints.size(); ++e) {
+        add(blend.sums[e / 4], scaled(standing.joints[set.joints[e]], set.weights[e]));
+        blend.weights[e / 4] += set.weights[e];
     }
 }
 
@@ -95,14 +70,12 @@ std::vector<Standing> standings(const GltfDocument& document) {
     return result;
 }
 
-std::vector<Affine> vertex_maps(const GltfDocument& document, const Standing& standing, const json& primitive,
-                                std::size_t vertices, const std::string& pointer) {
-    const json& attributes = object_member(primitive, "attributes", pointer);
-    if (!standing.skinned || !attributes.contains("JOINTS_0")) return {standing.world};
-    Blend blend{std::vector<Affine>(vertices, nothing), std::vector<double>(vertices)};
-    for (unsigned set = 0; attributes.contains(fmt::format("JOINTS_{}", set)); ++set)
-        add_set(blend, document, standing, attributes, set, pointer + "/attributes");
-    for (std::size_t v = 0; v < vertices; ++v)
+std::vector<Affine> vertex_maps(const Standing& standing, const Primitive& primitive) {
+    const unsigned sets = standing.skinned ? joint_set_count(primitive) : 0;
+    if (sets == 0) return {standing.world};
+    Blend blend{std::vector<Affine>(primitive.vertices, nothing), std::vector<double>(primitive.vertices)};
+    for (unsigned set = 0; set < sets; ++set) add_set(blend, standing, primitive, set);
+    for (std::size_t v = 0; v < primitive.vertices; ++v)
         blend.sums[v] = blend.weights[v] > 0 ? scaled(blend.sums[v], 1 / blend.weights[v]) : Affine{};
     return std::move(blend.sums);
 }

@@ -4,13 +4,12 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "io/glb.hpp"
 #include "io/gltf_nodes.hpp"
+#include "io/gltf_primitive.hpp"
 
 namespace mien {
 
@@ -26,8 +25,7 @@ struct Standing {
 std::vector<Standing> standings(const GltfDocument& document);
 
 /// The maps of a primitive's vertices to the scene: one for all of them, or for a skinned primitive one a vertex,
-/// Σ weight · joint. `pointer` is the primitive's.
-std::vector<Affine> vertex_maps(const GltfDocument& document, const Standing& standing, const nlohmann::json& primitive,
-                                std::size_t vertices, const std::string& pointer);
+/// Σ weight · joint.
+std::vector<Affine> vertex_maps(const Standing& standing, const Primitive& primitive);
 
 }  // namespace mien

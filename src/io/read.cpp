@@ -22,6 +22,7 @@
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
 #include "mien/io/ply.hpp"
+#include "mien/io/scene.hpp"
 #include "mien/io/take_csv.hpp"
 #include "mien/io/trc.hpp"
 
@@ -127,17 +128,22 @@ Bytes fetch_beside(const fs::path& gltf, std::string_view uri) {
     return read_bytes(target);
 }
 
+bool is_gltf(const fs::path& path) {
+    return has_extension(path, ".glb") || has_extension(path, ".gltf");
+}
+
+Fetch beside(const fs::path& gltf) {
+    return [gltf](std::string_view uri) { return fetch_beside(gltf, uri); };
+}
+
 // The parser of a mesh by extension; an unknown one is refused before the file is opened.
 using ParseMesh = std::function<Mesh(std::span<const std::byte>)>;
 ParseMesh mesh_parser(const fs::path& path) {
     if (has_extension(path, ".obj")) return parse_obj;
     if (has_extension(path, ".off")) return parse_off;
     if (has_extension(path, ".ply")) return parse_ply;
-    if (!has_extension(path, ".glb") && !has_extension(path, ".gltf"))
-        unknown_extension(path, ".glb, .gltf, .obj, .off or .ply");
-    return [path](std::span<const std::byte> bytes) {
-        return parse_gltf(bytes, [&](std::string_view uri) { return fetch_beside(path, uri); });
-    };
+    if (!is_gltf(path)) unknown_extension(path, ".glb, .gltf, .obj, .off or .ply");
+    return [fetch = beside(path)](std::span<const std::byte> bytes) { return parse_gltf(bytes, fetch); };
 }
 
 }  // namespace
@@ -148,6 +154,13 @@ Mesh read_mesh(const fs::path& path) {
         Mesh mesh = parse(bytes);
         refuse_flat(mesh);
         return mesh;
+    });
+}
+
+Scene read_scene(const fs::path& path) {
+    const ParseMesh parse = mesh_parser(path);
+    return parsed(path, [&](std::span<const std::byte> bytes) {
+        return is_gltf(path) ? parse_scene(bytes, beside(path)) : scene_of(parse(bytes));
     });
 }
 

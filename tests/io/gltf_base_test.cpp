@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "io/gltf_builder.hpp"
-#include "io/gltf_scene.hpp"
+#include "io/gltf_player.hpp"
 #include "shapes.hpp"
 
 #include "mien/error.hpp"
@@ -111,8 +111,7 @@ TEST(Base, materials_cameras_nodes_and_extras_survive_and_motion_goes) {
     EXPECT_FALSE(root["meshes"][0].contains("weights"));
     EXPECT_FALSE(root["meshes"][0]["primitives"][0].contains("targets"));
     EXPECT_FALSE(attributes(base.document).contains("WEIGHTS_0"));
-    EXPECT_THAT(gltf_scene::numbers(base.document, attributes(base.document)["TEXCOORD_0"]),
-                ElementsAre(0, 0, 1, 0, 0, 1));
+    EXPECT_THAT(played::numbers(base.document, attributes(base.document)["TEXCOORD_0"]), ElementsAre(0, 0, 1, 0, 0, 1));
     EXPECT_EQ(root["accessors"].size(), 5U) << "positions, normals, tangents, texture coordinates, indices";
     EXPECT_EQ(base.document.binary.size(), 36U + 36 + 48 + 24 + 8) << "indices are padded";
 }
@@ -127,7 +126,7 @@ TEST(Base, the_mesh_stands_in_the_scene_on_a_root_without_a_transform) {
     EXPECT_THAT(root["scenes"][0]["nodes"], ElementsAre(0, 2, 3));
     ASSERT_EQ(base.primitives.size(), 1U);
     EXPECT_THAT(base.primitives[0].vertices, ElementsAre(0, 1, 2));
-    const std::vector<Vec3> placed = gltf_scene::vectors(base.document, attributes(base.document)["POSITION"]);
+    const std::vector<Vec3> placed = played::vectors(base.document, attributes(base.document)["POSITION"]);
     EXPECT_THAT(placed, ElementsAre(Vec3{1, 2, 3}, Vec3{1, 2, 1}, Vec3{1, 3, 3}));
     EXPECT_EQ(root["accessors"][attributes(base.document)["POSITION"].get<std::size_t>()]["min"],
               json({1.0, 2.0, 1.0}));
@@ -138,9 +137,9 @@ TEST(Base, the_mesh_stands_in_the_scene_on_a_root_without_a_transform) {
 TEST(Base, normals_and_tangents_stay_square_to_each_other_under_uneven_scale) {
     const BaseDocument base = base_document(source_head({2, 1, 1}));
     const double size = std::hypot(1.6, 0.6);
-    const std::vector<Vec3> normals = gltf_scene::vectors(base.document, attributes(base.document)["NORMAL"]);
+    const std::vector<Vec3> normals = played::vectors(base.document, attributes(base.document)["NORMAL"]);
     for (const Vec3& n : normals) EXPECT_LT(distance(n, Vec3{1.6, 0, -0.6} / size), 1e-7);
-    const std::vector<double> t = gltf_scene::numbers(base.document, attributes(base.document)["TANGENT"]);
+    const std::vector<double> t = played::numbers(base.document, attributes(base.document)["TANGENT"]);
     EXPECT_LT(distance(Vec3{t[0], t[1], t[2]}, Vec3{-0.6, 0, -1.6} / size), 1e-7);
     EXPECT_EQ(t[3], 1);
 }
@@ -149,11 +148,10 @@ TEST(Base, a_mirroring_node_turns_triangles_round_and_flips_the_hand_of_tangents
     const BaseDocument base = base_document(source_head({-1, 1, 1}));
     keep("mirrored", base.document);
     const json& primitive = base.document.json["meshes"][0]["primitives"][0];
-    EXPECT_THAT(gltf_scene::numbers(base.document, primitive["indices"]), ElementsAre(0, 2, 1));
-    EXPECT_EQ(gltf_scene::numbers(base.document, attributes(base.document)["TANGENT"])[3], -1);
+    EXPECT_THAT(played::numbers(base.document, primitive["indices"]), ElementsAre(0, 2, 1));
+    EXPECT_EQ(played::numbers(base.document, attributes(base.document)["TANGENT"])[3], -1);
     // (0.6, 0, 0.8) mirrored is (-0.6, 0, 0.8), turned (0.8, 0, 0.6).
-    EXPECT_LT(distance(gltf_scene::vectors(base.document, attributes(base.document)["NORMAL"])[0], {0.8, 0, 0.6}),
-              1e-7);
+    EXPECT_LT(distance(played::vectors(base.document, attributes(base.document)["NORMAL"])[0], {0.8, 0, 0.6}), 1e-7);
 }
 
 TEST(Base, strips_and_fans_under_a_mirror_become_lists_turned_round) {
@@ -168,7 +166,7 @@ TEST(Base, strips_and_fans_under_a_mirror_become_lists_turned_round) {
         const json& primitive = base.document.json["meshes"][0]["primitives"][0];
         EXPECT_EQ(primitive["mode"], 4);
         const std::vector<double> strip{0, 2, 1, 1, 2, 0}, fan{0, 2, 1, 0, 0, 2};
-        EXPECT_EQ(gltf_scene::numbers(base.document, primitive["indices"]), mode == 5 ? strip : fan);
+        EXPECT_EQ(played::numbers(base.document, primitive["indices"]), mode == 5 ? strip : fan);
     }
 }
 
@@ -187,11 +185,11 @@ TEST(Base, vertices_are_split_at_seams_of_texture_and_only_there) {
     ASSERT_EQ(base.primitives.size(), 1U);
     const std::vector<std::uint32_t>& behind = base.primitives[0].vertices;
     EXPECT_THAT(behind, ElementsAre(0, 1, 1, 2, 3, 4, 4, 5));
-    const std::vector<Vec3> positions = gltf_scene::vectors(base.document, attributes(base.document)["POSITION"]);
+    const std::vector<Vec3> positions = played::vectors(base.document, attributes(base.document)["POSITION"]);
     for (std::size_t i = 0; i < behind.size(); ++i) EXPECT_EQ(positions[i], to_double(mesh.positions[behind[i]]));
-    const std::vector<double> uvs = gltf_scene::numbers(base.document, attributes(base.document)["TEXCOORD_0"]);
+    const std::vector<double> uvs = played::numbers(base.document, attributes(base.document)["TEXCOORD_0"]);
     const std::vector<double> indices =
-        gltf_scene::numbers(base.document, base.document.json["meshes"][0]["primitives"][0]["indices"]);
+        played::numbers(base.document, base.document.json["meshes"][0]["primitives"][0]["indices"]);
     // The fan of quad q: corners 0 1 2, 0 2 3.
     const std::vector<std::size_t> corners{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
     ASSERT_EQ(indices.size(), corners.size());
@@ -235,7 +233,7 @@ TEST(Base, normals_are_weighted_by_angle_and_shared_by_vertices_at_one_place) {
         add_face(cube, std::array{4 * side, 4 * side + 1, 4 * side + 2, 4 * side + 3});
     }
     const BaseDocument base = base_document(cube);
-    const std::vector<Vec3> normals = gltf_scene::vectors(base.document, attributes(base.document)["NORMAL"]);
+    const std::vector<Vec3> normals = played::vectors(base.document, attributes(base.document)["NORMAL"]);
     ASSERT_EQ(normals.size(), 24U);
     for (std::size_t v = 0; v < 24; ++v)
         EXPECT_LT(distance(normals[v], to_double(cube.positions[v]) / std::sqrt(3.0)), 1e-6) << v;

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "io/gltf_scene.hpp"
+#include "io/gltf_player.hpp"
 #include "io/gltf_unused.hpp"
 
 namespace mien {
@@ -41,8 +41,8 @@ TEST(Builder, numbers_lie_as_they_were_given_with_the_bounds_of_each_component) 
     const std::vector<Vec3f> points{{1, 5, -2}, {-1, 7, 0.5F}};
     const std::size_t accessor = append_vectors(document, points, BufferTarget::vertices, Bounds::given);
     EXPECT_EQ(accessor, 1U);
-    EXPECT_THAT(gltf_scene::numbers(document, accessor), ElementsAre(1, 5, -2, -1, 7, 0.5));
-    EXPECT_THAT(gltf_scene::numbers(document, 0), ElementsAre(1, 2, 3, 250));
+    EXPECT_THAT(played::numbers(document, accessor), ElementsAre(1, 5, -2, -1, 7, 0.5));
+    EXPECT_THAT(played::numbers(document, 0), ElementsAre(1, 2, 3, 250));
     EXPECT_EQ(document.json["accessors"][1]["min"], json({-1.0, 5.0, -2.0}));
     EXPECT_EQ(document.json["accessors"][1]["max"], json({1.0, 7.0, 0.5}));
     EXPECT_EQ(document.json["accessors"][1]["count"], 2);
@@ -55,8 +55,8 @@ TEST(Builder, indices_are_shorts_until_one_would_restart_the_primitive) {
     const std::size_t wide = append_indices(document, std::vector<std::uint32_t>{0, 65535, 1});
     EXPECT_EQ(document.json["accessors"][narrow]["componentType"], 5123);
     EXPECT_EQ(document.json["accessors"][wide]["componentType"], 5125);
-    EXPECT_THAT(gltf_scene::numbers(document, narrow), ElementsAre(0, 65534, 1));
-    EXPECT_THAT(gltf_scene::numbers(document, wide), ElementsAre(0, 65535, 1));
+    EXPECT_THAT(played::numbers(document, narrow), ElementsAre(0, 65534, 1));
+    EXPECT_THAT(played::numbers(document, wide), ElementsAre(0, 65535, 1));
 }
 
 // Two accessors of which a primitive uses the second, and a picture.
@@ -81,7 +81,7 @@ TEST(Unused, accessors_views_and_bytes_go_and_the_rest_is_renumbered) {
     EXPECT_EQ(document.json["bufferViews"].size(), 2U);
     EXPECT_EQ(document.binary.size(), 15U);
     const json& position = document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
-    EXPECT_THAT(gltf_scene::numbers(document, position), ElementsAre(4, 5, 6));
+    EXPECT_THAT(played::numbers(document, position), ElementsAre(4, 5, 6));
     const json& view = document.json["bufferViews"][document.json["images"][0]["bufferView"].get<std::size_t>()];
     EXPECT_EQ(document.binary.at(view["byteOffset"].get<std::size_t>()), std::byte{42});
 }
@@ -104,7 +104,7 @@ TEST(Unused, views_that_share_their_bytes_do_not_blow_up_the_buffer) {
     drop_unused_numbers(document);
     EXPECT_EQ(document.binary.size(), before);
     const json& position = document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
-    EXPECT_THAT(gltf_scene::numbers(document, position), ElementsAre(4, 5, 6));
+    EXPECT_THAT(played::numbers(document, position), ElementsAre(4, 5, 6));
 }
 
 }  // namespace

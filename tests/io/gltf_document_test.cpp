@@ -167,6 +167,53 @@ TEST(LoadGltf, TakesPicturesInByTheirFirstBytes) {
     EXPECT_EQ(view_text(document, images[2]["bufferView"].get<std::size_t>()), "no picture");
 }
 
+// Three pictures of which the middle one is not there, each with a texture, and a material that names all three.
+json three_pictures() {
+    json root = empty_json();
+    root["images"] = json::array({{{"uri", "a.png"}}, {{"uri", "gone.png"}, {"name", "iris"}}, {{"uri", "c.png"}}});
+    for (int i = 0; i < 3; ++i) root["textures"].push_back({{"source", i}});
+    root["materials"].push_back(
+        {{"emissiveTexture", {{"index", 0}}},
+         {"normalTexture", {{"index", 2}}},
+         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}, {"roughnessFactor", 0.5}}},
+         {"extensions", {{"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 1}}}}}}}});
+    return root;
+}
+
+TEST(LoadGltf, GoesWithoutAPictureThatIsNotThereAndSaysSo) {
+    Folder folder{{{"a.png", "\x89PNG\r\n\x1a\nA"}, {"c.png", "\x89PNG\r\n\x1a\nC"}}, {}};
+    const GltfDocument document = load(three_pictures(), folder);
+    EXPECT_THAT(document.left_out, testing::ElementsAre("picture 1 'iris': no file gone.png"));
+    ASSERT_EQ(document.json["images"].size(), 2U);
+    EXPECT_EQ(view_text(document, document.json["images"][1]["bufferView"].get<std::size_t>()), folder.files["c.png"]);
+    EXPECT_EQ(document.json["textures"], json::parse(R"([{"source": 0}, {}, {"source": 1}])"));
+    EXPECT_EQ(document.json["materials"][0],
+              json::parse(R"({"emissiveTexture": {"index": 0}, "normalTexture": {"index": 2},
+        "pbrMetallicRoughness": {"roughnessFactor": 0.5}, "extensions": {"KHR_materials_clearcoat": {}}})"));
+}
+
+TEST(LoadGltf, KeepsATextureWhosePictureIsThereInAnotherFormat) {
+    Folder folder{{{"a.png", "\x89PNG\r\n\x1a\nA"}, {"c.png", "RIFF1234WEBP"}}, {}};
+    json root = three_pictures();
+    root["textures"][1]["extensions"]["EXT_texture_webp"]["source"] = 2;
+    root["textures"][2]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    const GltfDocument document = load(root, folder);
+    EXPECT_EQ(document.json["textures"][1], json::parse(R"({"extensions": {"EXT_texture_webp": {"source": 1}}})"));
+    EXPECT_EQ(document.json["textures"][2], json::parse(R"({"source": 1})"));
+    EXPECT_EQ(document.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 1);
+}
+
+TEST(LoadGltf, GoesWithoutPicturesWhoseUriLeadsNowhere) {
+    for (const char* uri : {"data:image/png,plain", "http://there/a.png", "/etc/a.png", "data:;base64,"}) {
+        Folder folder;
+        json root = empty_json();
+        root["images"].push_back({{"uri", uri}});
+        const GltfDocument document = load(root, folder);
+        EXPECT_EQ(document.left_out.size(), 1U) << uri;
+        EXPECT_FALSE(document.json.contains("images")) << uri;
+    }
+}
+
 TEST(LoadGltf, DropsAFallbackBufferAndMovesWhatIsCompressed) {
     Folder folder{{{"a.bin", "0000"}, {"packed.bin", "12345678"}}, {}};
     json root = with_buffer_uri("a.bin", 4);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the mien authors
 
-// The file is played by tests/io/gltf_scene.hpp and has to show what skin weights and joint poses say.
+// The file is played by tests/io/gltf_player.hpp and has to show what skin weights and joint poses say.
 
 #include <cmath>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <numeric>
 
-#include "io/gltf_scene.hpp"
+#include "io/gltf_player.hpp"
 #include "shapes.hpp"
 
 #include "mien/error.hpp"
@@ -102,8 +102,12 @@ GltfDocument written(const Head& head, const Take& take, const GltfOptions& opti
 }
 
 void expect_played(const Head& head, const Take& take, const GltfDocument& document) {
+    const played::Player player(document);
+    const json& animation = document.json["animations"][0];
+    const std::vector<double> times = played::numbers(document, animation["samplers"][0]["input"]);
+    ASSERT_EQ(times.size(), row_count(take));
     for (std::size_t r = 0; r < row_count(take); ++r) {
-        const std::vector<Vec3> played = gltf_scene::skinned(document, 0, r);
+        const std::vector<Vec3> played = player.positions(times[r]);
         const std::vector<Pose> poses = poses_at(head, take, r);
         ASSERT_EQ(played.size(), vertex_count(head.mesh));
         for (std::size_t v = 0; v < played.size(); ++v) {
@@ -158,8 +162,8 @@ TEST(Joints, weights_of_a_vertex_sum_to_one_and_idle_slots_name_joint_zero) {
     }
     const GltfDocument document = written(made, {});
     const json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
-    const std::vector<double> weights = gltf_scene::numbers(document, attributes["WEIGHTS_0"]);
-    const std::vector<double> joints = gltf_scene::numbers(document, attributes["JOINTS_0"]);
+    const std::vector<double> weights = played::numbers(document, attributes["WEIGHTS_0"]);
+    const std::vector<double> joints = played::numbers(document, attributes["JOINTS_0"]);
     for (std::size_t v = 0; v < weights.size() / 4; ++v)
         EXPECT_NEAR(std::accumulate(&weights[4 * v], &weights[4 * v] + 4, 0.0), 1, 2e-7);
     for (std::size_t slot = 0; slot < weights.size(); ++slot)
@@ -193,7 +197,7 @@ TEST(Joints, only_what_moves_has_a_track_and_all_share_their_times) {
     EXPECT_EQ(animation["name"], "take");
     EXPECT_EQ(animation["channels"].size(), 4U) << "three of four points and the eyeball";
     for (const json& sampler : animation["samplers"]) EXPECT_EQ(sampler["input"], animation["samplers"][0]["input"]);
-    const std::vector<double> times = gltf_scene::numbers(document, animation["samplers"][0]["input"]);
+    const std::vector<double> times = played::numbers(document, animation["samplers"][0]["input"]);
     EXPECT_THAT(times, testing::ElementsAre(0, double{0.04F}, double{0.08F}));
     const json& accessor = document.json["accessors"][animation["samplers"][0]["input"].get<std::size_t>()];
     EXPECT_EQ(accessor["min"][0], 0);
@@ -214,7 +218,7 @@ TEST(Joints, rows_whose_times_a_float_cannot_tell_apart_are_one_key) {
     take.times = {0, 1000, 1000.00000001};
     const GltfDocument document = written(made, take);
     const json& input = document.json["animations"][0]["samplers"][0]["input"];
-    EXPECT_THAT(gltf_scene::numbers(document, input), testing::ElementsAre(0, 1000));
+    EXPECT_THAT(played::numbers(document, input), testing::ElementsAre(0, 1000));
 }
 
 TEST(Joints, the_head_moves_with_the_root_unless_it_is_asked_not_to) {
@@ -233,7 +237,7 @@ TEST(Joints, the_head_moves_with_the_root_unless_it_is_asked_not_to) {
     for (const json& channel : document.json["animations"][0]["channels"]) {
         if (channel["target"]["node"] != root || channel["target"]["path"] != "rotation") continue;
         const json& sampler = document.json["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()];
-        const std::vector<double> q = gltf_scene::numbers(document, sampler["output"]);
+        const std::vector<double> q = played::numbers(document, sampler["output"]);
         for (std::size_t i = 4; i < q.size(); i += 4)
             EXPECT_GT(std::inner_product(&q[i], &q[i] + 4, &q[i - 4], 0.0), 0);
     }

@@ -21,7 +21,8 @@ using Fetch = std::function<std::vector<std::byte>(std::string_view uri)>;
 
 /// glTF 2.0, text or binary: all meshes and primitives with node transforms, sparse accessors, interleaving,
 /// KHR_mesh_quantization, EXT_meshopt_compression, KHR_draco_mesh_compression, morph targets with their names; skins in
-/// their rest pose. `Mesh::gltf` is filled. Throws Error naming the JSON pointer or byte, expected and found.
+/// their rest pose. `Mesh::gltf` is filled; a picture that cannot be fetched is not in it and named in
+/// `Mesh::left_out`. Throws Error naming the JSON pointer or byte, expected and found.
 Mesh parse_gltf(std::span<const std::byte> bytes, const Fetch& fetch);
 
 struct GltfOptions {

@@ -10,14 +10,19 @@
 #include "mien/face.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
+#include "mien/scene.hpp"
 #include "mien/take.hpp"
 
 namespace mien {
 
 /// Reads a head by its extension: .glb .gltf .obj .off .ply. Throws Error whose sentence starts with the file's name;
 /// Kind::access when the file cannot be read. A mesh whose faces all lie on a point or a line is refused. A .gltf may
-/// name files in its own folder and below, nothing else.
+/// name files in its own folder and below, nothing else; a picture that is not there is named in `Mesh::left_out`.
 Mesh read_mesh(const std::filesystem::path& path);
+
+/// Reads what a file shows by its extension, as `read_mesh` does: `parse_scene` for .glb and .gltf, `scene_of` for the
+/// others.
+Scene read_scene(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv.
 Take read_take(const std::filesystem::path& path);
