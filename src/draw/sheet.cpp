@@ -203,7 +203,7 @@ Picture blank(const Layout& layout, const Colour& paper) {
 void lay_picture(Picture& sheet, const Picture& picture, std::size_t left, std::size_t top) {
     for (std::size_t y = 0; y < picture.height; ++y) {
         std::uint8_t* onto = &sheet.rgba[4 * (sheet.width * (top + y) + left)];
-        const std::uint8_t* from = &picture.rgba[4 * picture.width * y];
+        const std::uint8_t* from = &picture.rgba[std::size_t{4} * picture.width * y];
         for (std::size_t x = 0; x < picture.width; ++x, onto += 4, from += 4)
             lay_over(onto, {from[0], from[1], from[2], from[3]});
     }

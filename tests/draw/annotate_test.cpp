@@ -12,6 +12,14 @@
 
 #include "mien/error.hpp"
 
+// What fontconfig has read of its settings it keeps to the end of the program, which the leak check takes for lost.
+// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming)
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:libfontconfig";
+}
+// NOLINTEND(bugprone-reserved-identifier, readability-identifier-naming)
+
 namespace mien {
 namespace {
 

@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr Colour paper = SheetOptions{}.paper;
+const Colour paper = SheetOptions{}.paper;
 constexpr std::size_t line = 19;  // 1.4 sizes of 13 pixels, rounded up
 
 // A picture in which every pixel tells its place and the number of its picture.
@@ -84,7 +84,7 @@ TEST(ContactSheet, writes_captions_below_their_pictures_and_never_over_them) {
         EXPECT_GT(inked(sheet, 24 + p * 72, 64, 60, lines * line), 20U) << p;
         in_cells += inked(sheet, 22 + p * 72, 64, 64, lines * line);
     }
-    EXPECT_EQ(in_cells + 4 * 60 * 40, inked(sheet, 0, 0, sheet.width, sheet.height));
+    EXPECT_EQ(in_cells + std::size_t{4} * 60 * 40, inked(sheet, 0, 0, sheet.width, sheet.height));
 }
 
 TEST(ContactSheet, keeps_room_by_the_longest_caption_of_a_row) {
@@ -154,7 +154,7 @@ TEST(Beside, is_a_sheet_of_two_columns) {
     const Picture sheet = beside(coded(60, 40, 0), coded(60, 40, 1), std::vector<std::string>{"a", "b"});
     EXPECT_EQ(sheet.width, 48 + 60 + 12 + 60U);
     EXPECT_EQ(sheet.height, 48 + 40 + line);
-    EXPECT_TRUE(holds(sheet, coded(60, 40, 1), 24 + 72, 24));
+    EXPECT_TRUE(holds(sheet, coded(60, 40, 1), 96, 24));
 }
 
 TEST(Grid, puts_the_picture_of_row_and_column_where_their_names_meet) {
@@ -163,7 +163,7 @@ TEST(Grid, puts_the_picture_of_row_and_column_where_their_names_meet) {
     const Picture sheet = grid(pictures, names);
     const std::size_t left = sheet.width - 24 - 3 * 60 - 2 * 12, top = 24 + line;
     EXPECT_GT(left, 24U);
-    EXPECT_EQ(sheet.height, top + 2 * 40 + 12 + 24);
+    EXPECT_EQ(sheet.height, top + 40 + 12 + 40 + 24);
     for (std::size_t p = 0; p < 6; ++p)
         EXPECT_TRUE(holds(sheet, pictures[p], left + p % 3 * 72, top + p / 3 * 52)) << p;
     for (std::size_t c = 0; c < 3; ++c) EXPECT_GT(inked(sheet, left + c * 72, 24, 60, line), 20U) << c;

@@ -4,12 +4,14 @@
 #include "mien/io/video.hpp"
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
 
 #include "mien/error.hpp"
@@ -246,6 +248,26 @@ TEST_P(Video, says_where_it_cannot_write) {
     EXPECT_THAT([&] { VideoWriter(nowhere, 64, 64, 25); },
                 testing::Throws<Error>(testing::AllOf(Property(&Error::kind, Error::Kind::access),
                                                       Property(&Error::what, HasSubstr("No such file")))));
+}
+
+// The limit on the size of a file stands for a full disk; the child keeps it to itself.
+TEST_P(Video, says_so_when_the_disk_is_full_and_leaves_nothing_behind) {
+    const auto fill = [&] {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{2000, 2000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        try {
+            write(path(), 160, 96, 40);
+        } catch (const Error& error) {
+            std::exit(error.kind() == Error::Kind::access &&
+                              std::string(error.what()).find("File too large") != std::string::npos
+                          ? 0
+                          : 1);
+        }
+        std::exit(2);
+    };
+    EXPECT_EXIT(fill(), testing::ExitedWithCode(0), "");
+    EXPECT_EQ(entries(), 0U);
 }
 
 TEST(VideoFormats, names_the_ones_it_knows) {
