@@ -298,6 +298,13 @@ TEST(IoScene, triangles_stay_as_they_are_in_the_space_of_a_mirrored_node) {
     EXPECT_LT(determinant(rest_pose(scene).worlds[0]), 0);
 }
 
+TEST(IoScene, a_rotation_that_the_file_holds_in_few_digits_has_length_one) {
+    GltfDocument document = triangle();
+    add_node(document, {{"mesh", 0}, {"rotation", {0, 3, 0, 4}}});
+    EXPECT_EQ(scene_in(document).nodes.at(0).rotation, (Quaternion{0, 0.6, 0, 0.8}));
+    EXPECT_NEAR(length(read(document).positions.at(1)), 1, 1e-6);
+}
+
 TEST(IoScene, normals_have_length_one) {
     GltfDocument document = triangle();
     document.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
@@ -431,6 +438,8 @@ TEST(IoScene, what_is_read_is_bounded_by_the_bytes_of_the_file) {
     targets.json["meshes"][0]["primitives"][0]["targets"] = json(std::vector<json>(10000, json::object()));
     for (int i = 0; i < 1000; ++i) add_node(targets, {{"mesh", 0}});
     EXPECT_THAT(refusal(targets), HasSubstr("more morph targets"));
+    targets.json["scenes"].push_back({{"nodes", json::array()}});
+    EXPECT_THAT(refusal(targets), HasSubstr("more morph targets")) << "weights of nodes that show nothing";
     GltfDocument sets = skinned_triangle(std::vector<float>(12, 0.25F));
     json& primitive = sets.json["meshes"][0]["primitives"][0];
     sets.json["accessors"].push_back({{"type", "VEC3"}, {"componentType", 5126}, {"count", 100000}});
