@@ -94,7 +94,7 @@ TEST(Unused, numbers_that_are_written_with_a_fraction_of_zero_or_a_sign_refer_as
         json& position = document.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
         position = one;
         drop_unused_numbers(document);
-        EXPECT_THAT(gltf_scene::numbers(document, position.get<std::size_t>()), ElementsAre(4, 5, 6));
+        EXPECT_THAT(played::numbers(document, position.get<std::size_t>()), ElementsAre(4, 5, 6));
     }
 }
 

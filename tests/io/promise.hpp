@@ -59,14 +59,6 @@ inline bool keeps_promise(const Picture& picture) {
     return !picture.rgba.empty() && picture.rgba.size() == std::uint64_t{4} * picture.width * picture.height;
 }
 
-/// Whether all numbers are finite and `vertices` are ascending and below `count`.
-inline bool keeps_promise(const MorphTarget& morph, std::size_t count) {
-    bool good = morph.vertices.size() == morph.deltas.size();
-    for (std::size_t i = 0; good && i < morph.vertices.size(); ++i)
-        good = morph.vertices[i] < count && (i == 0 || morph.vertices[i - 1] < morph.vertices[i]);
-    return good && std::all_of(morph.deltas.begin(), morph.deltas.end(), is_finite<float>);
-}
-
 inline bool keeps_promise(const Affine& map) {
     return is_finite(map.columns[0]) && is_finite(map.columns[1]) && is_finite(map.columns[2]) && is_finite(map.offset);
 }
