@@ -48,7 +48,7 @@ TEST(TakeScene, BallsAreClosedAndFaceOutwards) {
 
 TEST(TakeScene, RefusesATakeOfWhichNothingIsSeen) {
     EXPECT_THROW((void)scene_of(Take{}), Error);
-    EXPECT_THROW((void)scene_of(Take{{"chin"}, {0}, {lost_sample}}), Error);
+    EXPECT_THROW((void)scene_of(Take{{"chin"}, {0}, {lost_sample}, {}, "mm"}), Error);
 }
 
 }  // namespace
