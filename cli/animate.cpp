@@ -43,6 +43,7 @@ void add_animate(CLI::App& app, Call& call) {
     add_face_flags(*verb, flags->face);
     verb->add_option("--take", flags->take.take, "the performance: .trc .csv")->required();
     add_take_flags(*verb, flags->take);
+    add_retarget_flags(*verb, flags->retarget);
     add_output_flags(*verb, flags->output);
 }
 

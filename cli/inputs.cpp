@@ -15,6 +15,8 @@ namespace mien::cli {
 namespace {
 
 const std::map<std::string, Reading> readings{{"paper", Reading::paper}, {"remedied", Reading::remedied}};
+const std::map<std::string, RetargetMethod> retarget_methods{{"local-affine", RetargetMethod::local_affine},
+                                                             {"rbf", RetargetMethod::rbf}};
 
 std::vector<std::string> rigger_names() {
     std::vector<std::string> names;
@@ -175,6 +177,10 @@ Take load_take(const TakeFlags& flags, Report& report) {
 
 void add_retarget_flags(CLI::App& verb, RetargetOptions& options) {
     add_reading_flag(verb, options.reading);
+    verb.add_option("--retarget-method", options.method,
+                    "how motion goes from face to face: one map per point, or a warp of space")
+        ->transform(CLI::CheckedTransformer(retarget_methods).description("local-affine or rbf"))
+        ->default_str("local-affine");
 }
 
 namespace {
@@ -192,12 +198,13 @@ std::vector<std::string> not_in(const std::vector<std::string>& names, const std
 Take load_onto(const Take& take, const Face& face, const RetargetOptions& options, Report& report) {
     const Retarget map = fit_retarget(take, face, options);
     Report& about = report["retarget"];
+    about["method"] = map.local.empty() ? "rbf" : "local-affine";
     about["points_driven"] = map.points.size();
     std::vector<std::string> ids;
     for (const FeaturePoint& point : face.points) ids.push_back(point.id);
     about["points_not_driven"] = not_in(ids, map.points);
     about["columns_not_used"] = not_in(take.points, map.points);
-    about["residual"] = map.residual;
+    if (map.local.empty()) about["residual"] = map.residual;
     Take onto = retarget(map, take);
     onto.unit = face.mesh.unit;
     return onto;

@@ -4,6 +4,8 @@
 #include "mien/face.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
@@ -50,6 +52,25 @@ TEST(Face, WithoutEyesTheSpreadOfThePointsServes) {
     EXPECT_DOUBLE_EQ(eye_distance(points({{"a", {10, 0, 0}}, {"b", {-10, 0, 0}}})), 6);
     EXPECT_EQ(eye_distance(points({{"a", {10, 0, 0}}})), 0);
     EXPECT_EQ(eye_distance({}), 0);
+}
+
+TEST(Face, MirrorPointsAreThoseOfTheStandard) {
+    EXPECT_EQ(mirror_point("8.3"), "8.4");
+    EXPECT_EQ(mirror_point("3.7"), "3.12");  // the outer corner of the left eye, and of the right
+    EXPECT_EQ(mirror_point("2.1"), "2.1");
+    EXPECT_EQ(mirror_point("2"), "");
+    EXPECT_EQ(mirror_point("dimple"), "");
+    std::ifstream file(std::filesystem::path(MIEN_SHARED) / "mpeg4/fdps.csv");
+    if (!file) GTEST_SKIP() << "the table of the standard is not there";
+    std::size_t count = 0;
+    std::string line;
+    std::getline(file, line);
+    while (std::getline(file, line)) {
+        if (line.ends_with('\r')) line.pop_back();
+        EXPECT_EQ(mirror_point(line.substr(0, line.find(','))), line.substr(line.rfind(',') + 1)) << line;
+        ++count;
+    }
+    EXPECT_EQ(count, 84U);
 }
 
 }  // namespace

@@ -47,4 +47,7 @@ Face with_points(const Face& face, std::span<const std::string> ids);
 /// points, or at last as 0.6 of the root-mean-square radius of all the points. Zero only for a single point.
 double eye_distance(std::span<const FeaturePoint> points);
 
+/// The MPEG-4 point on the other side of the face; the point itself on the midline; empty for ids of no MPEG-4 point.
+std::string_view mirror_point(std::string_view id);
+
 }  // namespace mien

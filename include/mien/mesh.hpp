@@ -66,11 +66,12 @@ inline std::span<const std::uint32_t> face(const Mesh& mesh, std::size_t f) {
 /// Adds a face with these corners. The caller keeps `corner_uvs` and `parts` in step.
 void add_face(Mesh& mesh, std::span<const std::uint32_t> corners);
 
-/// The box round all positions. Both corners are zero for a mesh without vertices.
+/// The box round all positions. Both corners are zero where there are none.
 struct Box {
     Vec3 low, high;
 };
 Box bounding_box(const Mesh& mesh);
+Box bounding_box(std::span<const Vec3> points);
 double diagonal(const Box& box);
 
 }  // namespace mien

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#pragma once
+
+#include "mien/retarget.hpp"
+
+namespace mien {
+
+/// Fits one linear map per point to the neutral points that `map` holds. `eye_distance`: the target's; 0 for a
+/// single point. Throws Error if the points are so far apart that the maps are not finite.
+void fit_local_affine(Retarget& map, double eye_distance);
+
+}  // namespace mien
