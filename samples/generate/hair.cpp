@@ -17,7 +17,7 @@
 namespace mien::samples {
 namespace {
 
-constexpr std::uint32_t columns = 104, cap_rows = 16;
+constexpr std::uint32_t columns = 96, cap_rows = 16;
 constexpr double sunk = -1.2;
 constexpr Vec3 skull_middle{0, 25, 0};
 
@@ -101,7 +101,7 @@ void add_cap(Surface& hair, const Character& character, const Shell& scalp) {
 
 // A closed tube round a curve: flat, widest a third of the way along, pointed at its end, round at its start.
 void add_lock(Surface& hair, const Character& character, const Shell& scalp, const Lock& lock, double side) {
-    constexpr std::uint32_t round = 8, steps = 20;
+    constexpr std::uint32_t round = 8, steps = 16;
     const auto first = static_cast<std::uint32_t>(hair.positions.size());
     const auto at = [&](double t) {
         const Vec3 place = on_curve(lock.path, t);

@@ -90,6 +90,7 @@ Tint times(const Tint& a, const Tint& b) {
 }
 
 double brow_share(const BrowLook& look, const Vec3& place) {
+    if (place.z < 30 || place.y < 10 || place.y > 60) return 0;
     double share = 0;
     for (int i = 0; i <= 24; ++i) {
         const double t = i / 24.0;
@@ -97,7 +98,7 @@ double brow_share(const BrowLook& look, const Vec3& place) {
         const double half = look.half_width * smooth_step(-.15, .15, t) * (1 - .7 * smooth_step(.5, 1.05, t)) + .6;
         share = std::max(share, 1 - smooth_step(.4, 1.35, std::hypot(d.y, .6 * d.x) / half));
     }
-    return place.z > 30 ? share : 0;
+    return share;
 }
 
 Tint skin_tint(const Character& character, const Ground& g) {

@@ -24,12 +24,6 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// The first of the cast; the laws of form hold for all of them.
-const Head& head() {
-    static const Head made = make_head(cast().front());
-    return made;
-}
-
 const std::vector<Head>& heads() {
     static const std::vector<Head> made = [] {
         std::vector<Head> all;
@@ -37,6 +31,11 @@ const std::vector<Head>& heads() {
         return all;
     }();
     return made;
+}
+
+// The first of the cast; the laws of form hold for all of them.
+const Head& head() {
+    return heads().front();
 }
 
 const Surface& skin_of(const Head& a) {

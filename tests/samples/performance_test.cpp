@@ -13,8 +13,13 @@
 namespace mien::samples {
 namespace {
 
+const Head& head() {
+    static const Head made = make_head(cast().front());
+    return made;
+}
+
 const Performance& performance() {
-    static const Performance made = perform(make_head(cast().front()));
+    static const Performance made = perform(head());
     return made;
 }
 
@@ -54,7 +59,7 @@ TEST(SamplePerformance, LastsEightSecondsAtSixtyRowsASecond) {
 
 TEST(SamplePerformance, EveryMarkerHasItsOwnFeaturePointOfTheHead) {
     std::set<std::string> ids, known;
-    for (const HeadPoint& p : make_head(cast().front()).points) known.insert(p.id);
+    for (const HeadPoint& p : head().points) known.insert(p.id);
     for (const Rename& name : performance().names) {
         EXPECT_TRUE(known.contains(name.to)) << name.from;
         ids.insert(name.to);
