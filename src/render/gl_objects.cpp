@@ -96,6 +96,7 @@ GlProgram::GlProgram(const std::string& vertex, const std::string& fragment, std
     if (done == GL_TRUE) return;
     std::array<char, 2048> words{};
     glGetProgramInfoLog(name_, static_cast<GLsizei>(words.size()), nullptr, words.data());
+    glDeleteProgram(name_);
     throw Error(fmt::format("render: expected the driver to link a program, found \"{}\"", words.data()));
 }
 
@@ -145,6 +146,7 @@ void fill(GlList& list, std::vector<Texel>& texels, const char* what) {
     if (rows > static_cast<std::size_t>(limit))
         throw Error(fmt::format("render: expected at most {} {}, which is what this driver's textures hold, found {}",
                                 static_cast<std::size_t>(limit) * width, what, texels.size()));
+    const std::size_t used = texels.size();
     texels.resize(rows * width);
     if (list.texture.name() == 0) list.texture = GlName(GlName::Kind::texture);
     bind_texture(0, list.texture.name());
@@ -155,7 +157,8 @@ void fill(GlList& list, std::vector<Texel>& texels, const char* what) {
             glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
         list.rows = height;
     } else {
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, list_width, height, GL_RGBA, GL_FLOAT, texels.data());
+        const GLsizei across = rows == 1 ? static_cast<GLsizei>(used) : list_width;
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, across, height, GL_RGBA, GL_FLOAT, texels.data());
     }
 }
 

@@ -249,11 +249,17 @@ void Painter::draw_marks(const Shot& shot, const Matrix& view) {
     mark_.set("full", shot.look.quality == Quality::full ? 1 : 0);
     glBindVertexArray(nothing_.name());
     glDisable(GL_CULL_FACE);
+    const CameraAxes axes = axes_of(shot.camera);
     for (const Mark& mark : shot.look.marks) {
         const auto across = static_cast<float>(2 * mark.radius);
         mark_.set("size", std::array<float, 2>{across / static_cast<float>(shot.camera.width),
                                                across / static_cast<float>(shot.camera.height)});
-        mark_.set("place", numbers(mark.position - shot.camera.target));
+        // Nearer along the line of sight by one and a half radii, so that the surface it lies on does not cut it.
+        const Vec3 sight = shot.camera.eye - mark.position;
+        const double depth = dot(sight, axes.back);
+        const double radius = 2 * mark.radius * axes.slope_y * depth / shot.camera.height;
+        const Vec3 nearer = mark.position + std::min(1.5 * radius / length(sight), 0.5) * sight;
+        mark_.set("place", numbers(nearer - shot.camera.target));
         mark_.set("colour", mark.colour);
         if (mark.always_on_top) glDisable(GL_DEPTH_TEST);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);

@@ -28,7 +28,13 @@ struct Renderer::Parts {
     explicit Parts(bool software) : context(software) {}
     Parts(const Parts&) = delete;
     Parts& operator=(const Parts&) = delete;
-    ~Parts() { context.use(); }
+    ~Parts() {
+        try {
+            context.use();
+        } catch (const Error&) {
+            // Another thread holds the context: what is on the device ends with it.
+        }
+    }
 
     Instance& at(ModelId model) {
         const auto found = models.find(model);

@@ -34,7 +34,6 @@ void main() {
     corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     gl_Position = view * vec4(place, 1.0);
     gl_Position.xy += corner * size * gl_Position.w;
-    gl_Position.z -= 2e-3 * gl_Position.w * size.y;
 }
 )";
 

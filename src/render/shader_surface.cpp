@@ -208,18 +208,18 @@ vec3 room_reflection(Surface s, vec3 v) {
     return sum;
 }
 
-// Diffuse light by the angle to the lamp, per channel; its mean over all angles is the same for any scatter.
-vec3 wrapped(float nl, vec3 scattered) {
-    vec3 w = 0.45 * scattered;
+// Diffuse light by the angle to the lamp, per channel; its mean over all angles is the same for any `w`.
+vec3 wrapped(float nl, vec3 w) {
     return max((nl + w) / ((1.0 + w) * (1.0 + w)), 0.0);
 }
 )";
 
 const char* const draft_light = R"(
+// Without shadows, light that wraps far round would glow in every hollow.
 vec3 lit(Surface s, vec3 v, vec3 at) {
     vec3 diffuse = mix(ground, sky, 0.5 + 0.33 * s.n.y), reflected = room_reflection(s, v);
     for (int i = 0; i < lamps; ++i) {
-        diffuse += light[i] * wrapped(dot(s.n, lamp[i]), s.scatter);
+        diffuse += light[i] * wrapped(dot(s.n, lamp[i]), 0.2 * s.scatter);
         reflected += light[i] * reflection(i, s, v);
     }
     return s.diffuse * diffuse * s.alpha + min(reflected, 8.0) + s.glow;
@@ -247,7 +247,7 @@ vec3 arriving(Surface s, vec3 place) {
 }
 vec3 lit(Surface s, vec3 v, vec3 at) {
     vec3 there = arriving(s, at);
-    vec3 diffuse = light[0] * wrapped(dot(s.n, sample_at), s.scatter) * there;
+    vec3 diffuse = light[0] * wrapped(dot(s.n, sample_at), 0.45 * s.scatter) * there;
     vec3 reflected = there.b * (dome ? 4.0 * room_reflection(s, v) * light[1] * max(dot(s.n, sample_at), 0.0)
                                      : light[0] * reflection(0, s, v));
     return s.diffuse * diffuse * s.alpha + min(reflected, 24.0) + s.glow;
@@ -342,7 +342,7 @@ void main() {
     float kept = 1.0 - metallic;
     vec3 into = kept * mix(ground, sky, 0.5 + 0.33 * s.n.y), off = room_reflection(s, v);
     for (int i = 0; i < lamps; ++i) {
-        into += kept * light[i] * wrapped(dot(s.n, lamp[i]), scatter);
+        into += kept * light[i] * wrapped(dot(s.n, lamp[i]), 0.2 * scatter);
         off += light[i] * reflection(i, s, v);
     }
 #ifdef ONE_COLOUR

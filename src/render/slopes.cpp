@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace mien {
 
@@ -203,19 +204,13 @@ Vec3f along(const Sloped& entry, const Vec3& direction) {
                     direction.z * entry.gradient[2]);
 }
 
-// A row for every vertex: that of its place, with slopes along its own tangents.
-Rows sloped_rows(const Geometry& geometry, const Places& places, const std::vector<std::vector<Sloped>>& by_place) {
-    Rows rows;
-    for (std::size_t v = 0; v < geometry.positions.size(); ++v) {
-        const Vec3 t = to_double(geometry.tangents[v]);
-        const Vec3 b = static_cast<double>(geometry.hands[v]) * cross(to_double(geometry.normals[v]), t);
-        for (const Sloped& entry : by_place[places.of[v]]) {
-            const Rows::Entry done{entry.index, to_float(entry.weight), along(entry, t), along(entry, b)};
-            if (!(done == Rows::Entry{entry.index, {}, {}, {}})) rows.entries.push_back(done);
-        }
-        rows.starts.push_back(static_cast<std::uint32_t>(rows.entries.size()));
+// Adds the row of a vertex: that of its place, with slopes along its own tangents.
+void add_row(Rows& rows, const std::vector<Sloped>& list, const Vec3& t, const Vec3& b) {
+    for (const Sloped& entry : list) {
+        const Rows::Entry done{entry.index, to_float(entry.weight), along(entry, t), along(entry, b)};
+        if (!(done == Rows::Entry{entry.index, {}, {}, {}})) rows.entries.push_back(done);
     }
-    return rows;
+    rows.starts.push_back(static_cast<std::uint32_t>(rows.entries.size()));
 }
 
 }  // namespace
@@ -225,15 +220,18 @@ void add_slopes(Geometry& geometry) {
     const Rings rings = rings_of(geometry, places);
     add_normals(geometry, places);
     add_tangents(geometry);
-    std::vector<std::vector<Sloped>> moves(places.vertex.size()), joints(places.vertex.size());
-    for (std::size_t c = 0; c < places.vertex.size(); ++c) {
+    Rows moves, joints;
+    for (std::size_t v = 0; v < geometry.positions.size(); ++v) {
+        const std::uint32_t c = places.of[v];
         const auto ring = std::span(rings.next).subspan(rings.starts[c], rings.starts[c + 1] - rings.starts[c]);
         const std::vector<Vec3> weights = gradient_weights(geometry, places, rings, c);
-        moves[c] = sloped_row(geometry.moves, places, ring, weights, c);
-        joints[c] = sloped_row(geometry.joints, places, ring, weights, c);
+        const Vec3 t = to_double(geometry.tangents[v]);
+        const Vec3 b = static_cast<double>(geometry.hands[v]) * cross(to_double(geometry.normals[v]), t);
+        add_row(moves, sloped_row(geometry.moves, places, ring, weights, c), t, b);
+        add_row(joints, sloped_row(geometry.joints, places, ring, weights, c), t, b);
     }
-    geometry.moves = sloped_rows(geometry, places, moves);
-    geometry.joints = sloped_rows(geometry, places, joints);
+    geometry.moves = std::move(moves);
+    geometry.joints = std::move(joints);
 }
 
 }  // namespace mien

@@ -288,7 +288,7 @@ TEST_F(Drawn, ALampBehindASurfaceDoesNotLightItUnlessLightTravelsUnderIt) {
     for (const Quality quality : qualities) {
         Look look = look_of(quality);
         look.sky = look.ground = {0, 0, 0};
-        look.lights = {{{1, 0, -0.2}, {1, 1, 1}, 0}};
+        look.lights = {{{1, 0, -0.1}, {1, 1, 1}, 0}};
         Scene scene = stage::square();
         EXPECT_LT(brightness(pixel(shoot(up(scene), straight(), look), 32, 32)), 6);
         if (quality == Quality::full) continue;  // there a flat sheet has no thickness to go through
