@@ -41,19 +41,11 @@ struct Look {
     Quality quality = Quality::full;
     std::uint32_t passes = 48;  ///< of `full`, 8 to 1024: more is smoother and takes longer in proportion
     std::vector<Light> lights;  ///< empty: three, as a portrait has them: key, fill, rim
-<<<<<<< HEAD
-    Rgb sky{0.30F, 0.32F, 0.35F}, ground{0.13F, 0.115F, 0.105F};  ///< linear light from above and below
+    Rgb sky{0.31F, 0.32F, 0.34F}, ground{0.13F, 0.115F, 0.105F};  ///< linear light from above and below
     double exposure = 1;                                          ///< times all light
     Rgb top{0.80F, 0.81F, 0.83F}, bottom{0.52F, 0.54F, 0.57F};    ///< background
     bool transparent = false;                                     ///< no background: alpha 0 where nothing is drawn
     bool wire = false;                                            ///< the edges of the triangles over the surfaces
-=======
-    Rgb sky{0.31F, 0.32F, 0.34F}, ground{0.13F, 0.115F, 0.105F};  ///< linear light from above and below
-    double exposure = 1;                                             ///< times all light
-    Rgb top{0.80F, 0.81F, 0.83F}, bottom{0.52F, 0.54F, 0.57F};    ///< background
-    bool transparent = false;                                        ///< no background: alpha 0 where nothing is drawn
-    bool wire = false;                                               ///< the edges of the triangles over the surfaces
->>>>>>> render
     std::vector<Mark> marks;
 };
 
