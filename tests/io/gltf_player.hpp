@@ -61,9 +61,11 @@ public:
     /// A primitive of a mesh as one node shows it.
     struct Shown {
         std::size_t mesh = 0, primitive = 0, node = 0;
+        std::size_t number = 0;  ///< the mesh's, or for one that is shown again the next one behind all of the file
     };
 
-    /// What the document's scene shows: meshes, then their primitives, then the nodes that show them, depth first.
+    /// What the document's scene shows: meshes and their primitives on the first node that shows them, depth first;
+    /// then what is shown again, in that order.
     [[nodiscard]] std::vector<Shown> shown() const {
         std::vector<std::size_t> open, traversal;
         const json& scene = root().at("scenes").at(root().value("scene", std::size_t{0}));
@@ -76,10 +78,26 @@ public:
             open.insert(open.end(), children.rbegin(), children.rend());
         }
         std::vector<Shown> all;
-        for (std::size_t mesh = 0; mesh < root().value("meshes", json::array()).size(); ++mesh)
+        const std::size_t meshes = root().value("meshes", json::array()).size();
+        const auto add = [&](std::size_t mesh, std::size_t node, std::size_t number) {
             for (std::size_t p = 0; p < root()["meshes"][mesh].at("primitives").size(); ++p)
-                for (const std::size_t node : traversal)
-                    if (root()["nodes"][node].value("mesh", json()) == mesh) all.push_back({mesh, p, node});
+                all.push_back({mesh, p, node, number});
+        };
+        const auto shows = [&](std::size_t node, std::size_t mesh) {
+            return root()["nodes"][node].value("mesh", json()) == mesh;
+        };
+        std::vector<std::size_t> again;
+        for (std::size_t mesh = 0; mesh < meshes; ++mesh) {
+            const auto first =
+                std::find_if(traversal.begin(), traversal.end(), [&](std::size_t node) { return shows(node, mesh); });
+            if (first != traversal.end()) add(mesh, *first, mesh);
+            for (auto node = first; node != traversal.end(); ++node)
+                if (node != first && shows(*node, mesh)) again.push_back(*node);
+        }
+        std::size_t number = meshes;
+        for (const std::size_t node : traversal)
+            if (std::find(again.begin(), again.end(), node) != again.end())
+                add(root()["nodes"][node].at("mesh").get<std::size_t>(), node, number++);
         return all;
     }
 

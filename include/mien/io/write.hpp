@@ -32,8 +32,8 @@ struct Frames {
     std::function<void(std::size_t row, std::ostream& out)> write;  ///< called once per row, in order
 };
 
-/// Writes a folder of frame_000001.png ... as a whole or not at all. A folder is replaced only when it holds nothing but
-/// such frames.
+/// Writes a folder of frame_000001.png ... as a whole or not at all. A folder is replaced only when it holds nothing
+/// but such frames.
 void write_folder(const Frames& frames, const std::filesystem::path& path, const WriteOptions& options = {});
 
 /// Writes a take by its extension: .csv .trc.
