@@ -69,7 +69,8 @@ void add_primitive(Growing& out, const Primitive& primitive, Part part, const st
     part.first_face = static_cast<std::uint32_t>(face_count(out.mesh));
     add_positions(out, primitive);
     add_faces(out, primitive);
-    for (std::size_t t = 0; t < names.size(); ++t) add_morph(primitive, t, out.budget, target_of(out, names[t]));
+    for (std::size_t t = 0; t < names.size(); ++t)
+        add_morph(primitive, t, primitive.first_vertex, out.budget, target_of(out, names[t]));
     part.face_count = static_cast<std::uint32_t>(face_count(out.mesh)) - part.first_face;
     out.mesh.parts.push_back(std::move(part));
 }

@@ -195,7 +195,8 @@ std::vector<std::string> target_names(const GltfDocument& document, std::size_t 
     return names;
 }
 
-void add_morph(const Primitive& primitive, std::size_t target, ReadBudget& budget, MorphTarget& morph) {
+void add_morph(const Primitive& primitive, std::size_t target, std::uint32_t first, ReadBudget& budget,
+               MorphTarget& morph) {
     const std::string above = fmt::format("{}/targets/{}", primitive.pointer, target), pointer = above + "/POSITION";
     const auto accessor = find_accessor((*primitive.value)["targets"][target], "POSITION", above);
     if (!accessor || primitive.vertices == 0) return;
@@ -208,7 +209,7 @@ void add_morph(const Primitive& primitive, std::size_t target, ReadBudget& budge
     for (std::size_t v = 0; v < primitive.vertices; ++v) {
         const Vec3f delta = checked_float(turned(primitive.map(v), vec3_at(numbers, v)), pointer);
         if (delta == Vec3f{}) continue;
-        morph.vertices.push_back(primitive.first_vertex + static_cast<std::uint32_t>(v));
+        morph.vertices.push_back(first + static_cast<std::uint32_t>(v));
         morph.deltas.push_back(delta);
     }
     spend(budget.morph_deltas, morph.vertices.size() - before, "vertices that morph targets move", pointer);

@@ -72,7 +72,8 @@ std::size_t target_count(const GltfDocument& document, std::size_t mesh);
 /// The names of a mesh's targets, each once: what has none is called by its number, and what comes again gets one.
 std::vector<std::string> target_names(const GltfDocument& document, std::size_t mesh);
 
-/// Adds what target number `target` of the primitive moves to `morph`.
-void add_morph(const Primitive& primitive, std::size_t target, ReadBudget& budget, MorphTarget& morph);
+/// Adds what target number `target` of the primitive moves to `morph`, whose vertices count from `first` on.
+void add_morph(const Primitive& primitive, std::size_t target, std::uint32_t first, ReadBudget& budget,
+               MorphTarget& morph);
 
 }  // namespace mien

@@ -73,7 +73,7 @@ Surface read_surface(const Primitive& primitive, const PictureMapping& mapping, 
     std::iota(surface.mesh_vertices.begin(), surface.mesh_vertices.end(), primitive.first_vertex);
     for (std::size_t t = 0; t < morphs.size(); ++t) {
         surface.morphs.push_back({morphs[t], {}, {}});
-        add_morph(primitive, t, budget, surface.morphs.back());
+        add_morph(primitive, t, 0, budget, surface.morphs.back());
     }
     return surface;
 }

@@ -26,7 +26,7 @@ namespace mien {
 namespace {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
-constexpr std::uint64_t most_pixels_per_byte = 8 * 64;
+constexpr std::uint64_t most_pixels_per_byte = 512;
 constexpr int most_scans = 100;
 
 // The library's struct and what it needs beside it, destroyed with this one.
@@ -52,13 +52,13 @@ Reader& reader_of(j_common_ptr jpeg) {
 [[noreturn]] void stop(j_common_ptr jpeg) {
     Reader& reader = reader_of(jpeg);
     reader.errors.format_message(jpeg, reader.complaint.data());
-    std::longjmp(reader.out, 1);  // NOLINT(cert-err52-cpp): libjpeg has no other way
+    std::longjmp(reader.out, 1);
 }
 
 [[noreturn]] void stop_with(j_decompress_ptr jpeg, const char* sentence) {
     Reader& reader = reader_of(reinterpret_cast<j_common_ptr>(jpeg));
     std::snprintf(reader.complaint.data(), reader.complaint.size(), "%s", sentence);
-    std::longjmp(reader.out, 1);  // NOLINT(cert-err52-cpp)
+    std::longjmp(reader.out, 1);
 }
 
 void print_nothing(j_common_ptr) {}
@@ -99,7 +99,7 @@ void set_up(Reader& reader) {
 
 // Everything in front of the pixels; false when the library gave up.
 bool read_header(Reader& reader) {
-    if (setjmp(reader.out)) return false;  // NOLINT(cert-err52-cpp)
+    if (setjmp(reader.out)) return false;
     jpeg_create_decompress(&reader.jpeg);
     reader.jpeg.src = &reader.source;
     reader.jpeg.progress = &reader.progress;
@@ -108,7 +108,7 @@ bool read_header(Reader& reader) {
 }
 
 bool read_pixels(Reader& reader, std::uint8_t* rgba, std::size_t row_size) {
-    if (setjmp(reader.out)) return false;  // NOLINT(cert-err52-cpp)
+    if (setjmp(reader.out)) return false;
     reader.jpeg.out_color_space = JCS_EXT_RGBA;
     // One of several ways to the same picture, the same on every machine.
     reader.jpeg.dct_method = JDCT_ISLOW;

@@ -75,7 +75,7 @@ struct Reader {
 
 // Everything in front of the pixels; false when libpng gave up.
 bool read_header(const Reader& reader, Source& source) {
-    if (setjmp(png_jmpbuf(reader.png))) return false;  // NOLINT(cert-err52-cpp): libpng has no other way
+    if (setjmp(png_jmpbuf(reader.png))) return false;
     png_set_read_fn(reader.png, &source, take_bytes);
     png_set_user_limits(reader.png, 1U << 24U, 1U << 24U);
     png_set_chunk_cache_max(reader.png, 64);
@@ -88,7 +88,7 @@ bool read_header(const Reader& reader, Source& source) {
 
 // Rows of red, green, blue and alpha of 8 bits each, whatever the file holds.
 bool read_pixels(const Reader& reader, std::uint8_t* rgba, std::size_t row_size, std::uint32_t height) {
-    if (setjmp(png_jmpbuf(reader.png))) return false;  // NOLINT(cert-err52-cpp)
+    if (setjmp(png_jmpbuf(reader.png))) return false;
     png_set_expand(reader.png);
     png_set_scale_16(reader.png);
     png_set_gray_to_rgb(reader.png);
@@ -145,7 +145,7 @@ bool is_opaque(const Picture& picture) {
 }
 
 bool write_pixels(const Writer& writer, Sink& sink, const Picture& picture, bool opaque) {
-    if (setjmp(png_jmpbuf(writer.png))) return false;  // NOLINT(cert-err52-cpp)
+    if (setjmp(png_jmpbuf(writer.png))) return false;
     png_set_write_fn(writer.png, &sink, put_bytes, put_nothing);
     png_set_user_limits(writer.png, 0x7fffffff, 0x7fffffff);
     png_set_IHDR(writer.png, writer.info, picture.width, picture.height, 8,

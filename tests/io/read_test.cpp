@@ -152,6 +152,15 @@ TEST_F(Read, a_head_is_read_without_a_picture_that_is_not_there) {
     EXPECT_TRUE(read_mesh(file("a.gltf", text)).left_out.empty());
 }
 
+TEST_F(Read, a_scene_is_read_by_the_extension_of_its_file) {
+    file("a.bin", gltf_positions());
+    EXPECT_EQ(read_scene(file("a.gltf", gltf("a.bin"))).surfaces.at(0).positions.at(1), (Vec3f{1, 0, 0}));
+    const Scene scene = read_scene(file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    EXPECT_EQ(scene.surfaces.at(0).positions.at(1), (Vec3f{1, 0, 0}));
+    EXPECT_THAT(refusal([&] { read_scene(folder_ / "a.txt"); }).sentence, HasSubstr("expected a file that ends in"));
+    EXPECT_THAT(refusal([&] { read_scene(file("b.gltf", gltf("gone.bin"))); }).sentence, HasSubstr("b.gltf: "));
+}
+
 TEST_F(Read, a_gltf_reaches_files_of_its_folder_and_below_and_nothing_else) {
     fs::create_directory(folder_ / "below");
     file("a.bin", gltf_positions());
