@@ -66,19 +66,19 @@ struct Use {
 };
 std::vector<Use> uses_of(const Scene& scene, const Rig* rig) {
     std::vector<Use> uses(scene.surfaces.size());
-    std::vector<bool> on_eyeball(rig != nullptr ? vertex_count(*rig) : 0, false);
-    for (std::size_t e = 0; rig != nullptr && e < rig->eyeballs.size(); ++e)
-        for (const std::uint32_t v : rig->eyeballs[e].vertices) on_eyeball[v] = true;
+    for (std::size_t s = 0; s < uses.size(); ++s) uses[s].vertices = scene.surfaces[s].positions.size();
+    if (rig == nullptr) return uses;
+    std::vector<bool> on_eyeball(vertex_count(*rig), false);
+    for (const Eyeball& eyeball : rig->eyeballs)
+        for (const std::uint32_t v : eyeball.vertices) on_eyeball[v] = true;
     const std::vector<std::uint32_t> vertices = mesh_vertices(scene);
     std::size_t at = 0;
-    for (std::size_t s = 0; s < uses.size(); ++s) {
-        uses[s].vertices = scene.surfaces[s].positions.size();
-        for (std::size_t v = 0; v < uses[s].vertices; ++v, ++at) {
+    for (Use& use : uses)
+        for (std::size_t v = 0; v < use.vertices; ++v, ++at) {
             if (vertices[at] >= on_eyeball.size()) continue;
-            uses[s].on_eyeball += on_eyeball[vertices[at]] ? 1U : 0U;
-            uses[s].moved += rig->row_starts[vertices[at] + 1] > rig->row_starts[vertices[at]] ? 1U : 0U;
+            use.on_eyeball += on_eyeball[vertices[at]] ? 1U : 0U;
+            use.moved += rig->row_starts[vertices[at] + 1] > rig->row_starts[vertices[at]] ? 1U : 0U;
         }
-    }
     return uses;
 }
 

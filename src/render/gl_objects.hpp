@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <epoxy/gl.h>
@@ -66,6 +67,11 @@ private:
     GLuint name_ = 0;
     std::map<std::string, GLint, std::less<>> locations_;
 };
+
+/// A place in the bound buffer, in bytes, as OpenGL wants to be told it.
+inline const void* buffer_offset(std::size_t bytes) {
+    return std::bit_cast<const void*>(static_cast<std::uintptr_t>(bytes));
+}
 
 /// A buffer filled once.
 template <class T>

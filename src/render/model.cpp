@@ -81,13 +81,9 @@ std::vector<std::uint32_t> edges_of(const Geometry& geometry) {
     return list;
 }
 
-const void* offset(std::size_t bytes) {
-    return reinterpret_cast<const void*>(bytes);
-}
-
 void float_attribute(GLuint location, GLint size, std::size_t stride, std::size_t at) {
     glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), offset(at));
+    glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), buffer_offset(at));
 }
 
 GlName move_array_of(const GlName& still) {
@@ -99,8 +95,9 @@ GlName move_array_of(const GlName& still) {
     float_attribute(2, 4, sizeof(StillVertex), offsetof(StillVertex, tangent));
     for (const GLuint location : {3U, 4U}) {
         glEnableVertexAttribArray(location);
-        glVertexAttribIPointer(location, location == 3 ? 4 : 2, GL_INT, sizeof(StillVertex),
-                               offset(location == 3 ? offsetof(StillVertex, rows) : offsetof(StillVertex, joints)));
+        glVertexAttribIPointer(
+            location, location == 3 ? 4 : 2, GL_INT, sizeof(StillVertex),
+            buffer_offset(location == 3 ? offsetof(StillVertex, rows) : offsetof(StillVertex, joints)));
     }
     glBindVertexArray(0);
     return array;

@@ -140,9 +140,10 @@ std::vector<Pass> passes_of(const Look& look, const Camera& camera, std::span<co
     }
     for (std::size_t i = 0; i < dome; ++i) {
         // Each place and its mirror image: faces are nearly symmetric, and so should their shadows be.
-        const auto pair = static_cast<double>(i / 2);
+        const std::size_t number = i / 2, pairs = (dome + 1) / 2;
+        const auto pair = static_cast<double>(number);
         const double side = i % 2 == 0 ? 1 : -1;
-        const double y = 1 - (2 * pair + 1) / static_cast<double>((dome + 1) / 2);
+        const double y = 1 - (2 * pair + 1) / static_cast<double>(pairs);
         const double across = std::sqrt(1 - y * y), angle = golden_angle * pair;
         const double high = 0.5 + 0.5 * y, share = high * high * (3 - 2 * high);
         const Vec3 light = look.exposure * (colour(look.ground) + share * (colour(look.sky) - colour(look.ground)));

@@ -154,7 +154,7 @@ void draw_triangles(const Instance& model, const Piece& piece) {
     // The picture is drawn upside down, which turns the sides of all triangles over.
     glFrontFace(determinant(model.place) < 0 ? GL_CCW : GL_CW);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.index_count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(piece.first_index * sizeof(std::uint32_t)));
+                   buffer_offset(piece.first_index * sizeof(std::uint32_t)));
 }
 
 // How far red light goes under skin, in the scene's unit. A head of unknown size is taken to be 240 mm high.
@@ -314,7 +314,7 @@ void Painter::draw_shadows(const Shot& shot, const ShadowView& shadow) {
             shadow_.set("cutoff", cutoff);
             if (pictured) bind_texture(0, model->still->pictures[*picture].name());
             glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.index_count), GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(piece.first_index * sizeof(std::uint32_t)));
+                           buffer_offset(piece.first_index * sizeof(std::uint32_t)));
         }
     }
 }
@@ -343,7 +343,8 @@ void Painter::draw_pass(const Shot& shot, const Pass& pass, const Matrix& view, 
     Lamp lamp = dome ? Lamp{pass.direction, {}, {}, {}} : shot.lamps[static_cast<std::size_t>(pass.lamp)];
     lamp.light = pass.light;
     // The room's reflection is shared out among the dome's passes.
-    const double times = dome ? static_cast<double>(passes) / (shot.look.passes / 2) : 0;
+    const std::uint32_t dome_passes = shot.look.passes / 2;
+    const double times = dome ? static_cast<double>(passes) / dome_passes : 0;
     const std::array<Lamp, 2> lamps{lamp, Lamp{{}, {}, {}, Vec3{times, times, times}}};
     const Ball window = shadow_window(shot.camera, shot.all);
     const ShadowView shadow = shadow_view(pass.direction, window, shot.all, Targets::shadow_size, pass.shift);

@@ -31,6 +31,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::UnorderedElementsAre;
 
 Scene scene_in(std::span<const std::byte> bytes) {
     return parse_scene(bytes, no_file);

@@ -191,6 +191,19 @@ TEST_F(Drawn, APictureLiesOnASurfaceFromItsUpperLeftCorner) {
     }
 }
 
+TEST_F(Drawn, AnUnlitPictureShowsItsOwnNumbers) {
+    Scene scene = stage::square({1, 1, 1, 1});
+    scene.materials[0].unlit = true;
+    scene.materials[0].colour_picture = 0;
+    scene.pictures = {{1, 1, {40, 128, 200, 255}}};
+    for (const Quality quality : qualities) {
+        const auto seen = pixel(shoot(up(scene), straight(), look_of(quality)), 32, 32);
+        EXPECT_NEAR(seen[0], 40, 1);
+        EXPECT_NEAR(seen[1], 128, 1);
+        EXPECT_NEAR(seen[2], 200, 1);
+    }
+}
+
 TEST_F(Drawn, AMaskCutsAndABlendMixes) {
     for (const Quality quality : qualities) {
         Scene back = stage::square({1, 0, 0, 1}, -0.2F, 2), front = stage::square({0, 0, 1, 0.25F});
@@ -215,6 +228,8 @@ TEST_F(Drawn, BackSidesShowOnlyOnTwoSidedMaterials) {
     for (const Quality quality : qualities) {
         Look look = look_of(quality);
         look.transparent = true;
+        look.sky = look.ground = {0, 0, 0};
+        look.lights = {{{0, 0, 1}, {1, 1, 1}, 5}};
         scene.materials[0].double_sided = false;
         EXPECT_EQ(pixel(shoot(up(scene), straight(), look), 32, 32)[3], 0);
         scene.materials[0].double_sided = true;
