@@ -21,7 +21,7 @@ struct Arch {
     double gum, gum_line, crown, front_edge, back_edge;  // heights
     std::array<double, teeth> widths;
 };
-constexpr Arch upper{"teeth_upper", 27, 40, 57, -53, -57.5, -61.8, -68.6, -66.6, {8.5, 6.5, 7.6, 7.1, 6.6, 10.4, 9.8}};
+constexpr Arch upper{"teeth_upper", 27, 40, 57, -53, -57.5, -62.4, -69.4, -67, {8.5, 6.5, 7.6, 7.1, 6.6, 10.4, 9.8}};
 constexpr Arch lower{"teeth_lower", 25.5,  36,    57,    -80,
                      -75.5,         -71.5, -65.6, -66.0, {5.3, 5.7, 6.8, 7.0, 7.1, 11.4, 10.8}};
 
