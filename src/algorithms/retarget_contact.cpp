@@ -19,6 +19,9 @@
 //
 // The rest of w is carried by A, less its part along N. The difference between wanted and given is shared: by the lids
 // in proportion to how far each moved, by the lips half and half, and fading where the mouth is wide open.
+//
+// A source without lower lids gets a still partner at the usual distance below each upper lid. How open its own eye is
+// can only be guessed so.
 
 #include "algorithms/retarget_contact.hpp"
 
@@ -28,8 +31,6 @@
 #include <fmt/format.h>
 #include <optional>
 #include <string_view>
-
-#include "algorithms/generic_face.hpp"
 
 #include "mien/error.hpp"
 
@@ -75,9 +76,9 @@ Vec3 through(const Retarget& map, const ContactPair& pair, const Vec3& d) noexce
     return 0.5 * (through(map, pair.upper, d) + through(map, pair.lower, d));
 }
 
-// From the lower lid to the upper on a generic face, in the coordinates of a face.
-Vec3 generic_opening(const Candidate& lids, const FaceFrame& frame) {
-    return frame.eyes * rotate(frame.turn, *generic_position(lids.upper) - *generic_position(lids.lower));
+// From the lower lid to the upper on most faces, about 10 mm of 63 mm, in the coordinates of a face.
+Vec3 usual_opening(const FaceFrame& frame) {
+    return frame.eyes * rotate(frame.turn, {0, 0.165, 0.02});
 }
 
 void set_rest(const Retarget& map, const FaceFrames& frames, std::span<const FeaturePoint> face,
@@ -87,11 +88,10 @@ void set_rest(const Retarget& map, const FaceFrames& frames, std::span<const Fea
         pair.target_rest = map.target_neutral[pair.upper] - map.target_neutral[pair.lower];
         return;
     }
-    pair.source_rest = generic_opening(candidate, frames.source);
+    pair.source_rest = usual_opening(frames.source);
     if (map.planar) pair.source_rest.z = 0;
     const std::optional<std::size_t> lower = find_point(face, candidate.lower);
-    pair.target_rest =
-        lower ? map.target_neutral[pair.upper] - face[*lower].position : generic_opening(candidate, frames.target);
+    pair.target_rest = lower ? map.target_neutral[pair.upper] - face[*lower].position : usual_opening(frames.target);
 }
 
 void set_directions(const FaceFrames& frames, ContactPair& pair) {
@@ -208,6 +208,12 @@ double upper_share(const Retarget& map, const ContactPair& pair, const Vec3& upp
     return a / (a + b);
 }
 
+// How much of the sideways motion is carried. A guessed partner lies a little aside of the true one: where the lids
+// meet, what seems to be slip is that.
+double slip(const ContactPair& pair, double h) noexcept {
+    return pair.lower == no_point ? std::clamp(1 + h / pair.source_opening, 0.0, 1.0) : 1;
+}
+
 void correct(const Retarget& map, const ContactPair& pair, std::span<const Vec3> source,
              std::span<Vec3> moved) noexcept {
     const Vec3 upper = moved[pair.upper], lower = pair.lower == no_point ? Vec3{} : moved[pair.lower];
@@ -218,7 +224,7 @@ void correct(const Retarget& map, const ContactPair& pair, std::span<const Vec3>
 
     const Vec3 &n = pair.source_up, &N = pair.target_up;
     const double h = dot(way, n) / map.source_eyes;
-    Vec3 beside = pair.target_rest + through(map, pair, way - dot(way, n) * n);
+    Vec3 beside = pair.target_rest + slip(pair, h) * through(map, pair, way - dot(way, n) * n);
     beside -= dot(beside, N) * N;
     const Vec3 wanted = beside + map.target_eyes * opening(pair, h) * N;
     Vec3 correction = wanted - (pair.target_rest + upper - lower);
