@@ -219,7 +219,6 @@ void correct(const Retarget& map, const ContactPair& pair, std::span<const Vec3>
     const Vec3 upper = moved[pair.upper], lower = pair.lower == no_point ? Vec3{} : moved[pair.lower];
     Vec3 way = source[pair.upper] - map.source_neutral[pair.upper];
     if (pair.lower != no_point) way -= source[pair.lower] - map.source_neutral[pair.lower];
-    if (map.planar) way.z = 0;
     if (!is_finite(way)) return;
 
     const Vec3 &n = pair.source_up, &N = pair.target_up;
