@@ -32,7 +32,7 @@ namespace mien {
 
 namespace {
 
-constexpr double reach = 1;   // in eye distances: points nearer than that count about alike
+constexpr double reach = 1;    // in eye distances: points nearer than that count about alike
 constexpr double pull = 0.25;  // towards a change of size alone
 
 using Points = Eigen::Matrix<double, 3, Eigen::Dynamic>;
@@ -101,14 +101,14 @@ Maps made_symmetric(const Maps& maps, const std::vector<Eigen::Index>& partner, 
 }  // namespace
 
 void fit_local_affine(Retarget& map, const FaceFrames& frames) {
-    const auto& [source, target, known] = frames;
+    const FaceFrame &source = frames.source, &target = frames.target;
     const Points s = columns(map.source_neutral, source);
     const Points t = columns(map.target_neutral, target);
     const double G = best_similarity(map).ratio * source.eyes / target.eyes;
     Maps maps;
     for (Eigen::Index j = 0; j < s.cols(); ++j) maps.push_back(local_map(s, t, G, j));
     const std::vector<Eigen::Index> partner = partners(map.points);
-    const Eigen::Vector3d across = known ? Eigen::Vector3d::UnitX() : sideways(t, partner);
+    const Eigen::Vector3d across = frames.known ? Eigen::Vector3d::UnitX() : sideways(t, partner);
     if (across.norm() > 0) maps = made_symmetric(maps, partner, across);
     for (const Eigen::Matrix3d& A : maps) {
         const auto column = [&](const Vec3& axis) {

@@ -4,12 +4,8 @@
 // What meets on the performer meets on the target: lids and lips of people, of a cartoon, of another topology and of a
 // creature. Lengths are in eye distances of the face they are on.
 
-#include <cstdlib>
-#include <fmt/format.h>
-#include <gmock/gmock.h>
+#include <cmath>
 #include <gtest/gtest.h>
-#include <iostream>
-#include <new>
 
 #include "retarget_faces.hpp"
 
@@ -239,6 +235,23 @@ TEST(Contact, a_lost_lid_leaves_its_partner_to_its_own_map) {
     EXPECT_FALSE(is_finite(row(out, 1)[*find_column(out, "3.1")]));
     EXPECT_EQ(row(out, 1)[*find_column(out, "3.3")], row(without, 1)[*find_column(out, "3.3")]);
     EXPECT_LT(opening(out, 1, lids[1]), 0.00051 * faces::eyes(target));
+}
+
+TEST(Contact, a_frame_alone_goes_where_the_row_of_a_take_goes) {
+    const Points source = drawn_face(), target = drawn_creature();
+    Take take = faces::take_of(source, {closing(source, 0.7, 0.5, 0.01)});
+    row(take, 1)[4] = lost_sample;
+    const Retarget map = fit_retarget(take, faces::face_of(target));
+    const Take out = retarget(map, take);
+    std::vector<Vec3> frame, moved(map.points.size());
+    for (const std::string& id : map.points) frame.push_back(row(take, 1)[*find_column(take, id)]);
+    retarget(map, frame, moved);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        EXPECT_EQ(is_finite(moved[i]), i != 4);
+        if (i != 4) {
+            EXPECT_EQ(moved[i], row(out, 1)[i]);
+        }
+    }
 }
 
 TEST(Contact, a_picture_of_closing_eyes_closes_them) {

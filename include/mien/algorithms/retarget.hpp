@@ -34,7 +34,7 @@ struct RetargetOptions {
     /// `paper`: eq. 1-3 of Dutreve et al. as written, scale per centre, whatever `method` says.
     Reading reading = Reading::remedied;
     NeutralOptions neutral;
-    bool contact = true;                ///< lids and lips that meet on the source meet on the target; not for networks
+    bool contact = true;  ///< lids and lips that meet on the source meet on the target; not for networks
     std::vector<SealedOpening> sealed = {};  ///< pairs with an opening of their own
 };
 
