@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "mien/algorithms/depth.hpp"
 #include "mien/algorithms/partial.hpp"
 
 namespace mien::cli {
@@ -88,6 +89,8 @@ void add_performance_flags(CLI::App& verb, PerformanceFlags& flags, const std::s
             "eye distances, per upper point of a pair: 2.2=0.02,2.6=0.02,2.7=0.02")
         ->allow_extra_args(false)
         ->check(CLI::Validator(check_strength, "POINT=NUMBER"));
+    verb.add_flag("--no-depth{false}", flags.depth,
+                  "leave the points of a picture (a take without z) in their plane, instead of estimating their depth");
     verb.parse_complete_callback([&flags] { refuse_uneven(flags); });
 }
 
@@ -103,6 +106,10 @@ Take load_one(const PerformanceFlags& flags, std::size_t i, const Face& face, Re
     TakeFlags one = flags.take;
     one.take = flags.takes[i];
     Take take = load_take(one, report);
+    if (take.planar) {
+        if (flags.depth) take = with_depth(take, one.neutral);
+        report["depth"] = take.planar ? "none: the picture's points stay in a plane" : "estimated from the picture";
+    }
     const PartialOptions parts = partial_options(flags, i);
     if (!parts.only.empty() || !parts.without.empty() || !parts.strengths.empty())
         take = partial(take, neutral(take, one.neutral), parts);

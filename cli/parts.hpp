@@ -20,6 +20,7 @@ struct PerformanceFlags {
     std::vector<std::string> without;
     std::vector<std::string> strengths;  ///< PART=NUMBER
     std::vector<std::string> sealed;     ///< POINT=NUMBER
+    bool depth = true;                   ///< estimated for takes from a picture
 };
 
 /// `take_name`: how the verb takes its takes, as an option or by their place.

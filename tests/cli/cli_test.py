@@ -144,6 +144,20 @@ class CommandLine(unittest.TestCase):
         self.assertEqual({name: far for name, far in both.items() if name.startswith("4.")},
                          {name: far for name, far in all_of_it.items() if name.startswith("4.")})
 
+    def test_a_picture_gets_depth_unless_told_otherwise(self):
+        picture = self.work / "picture.csv"
+        rest = {"3.7": (72, 1), "3.11": (28, -1), "3.12": (-72, 1), "3.8": (-28, -1), "8.3": (41, -108), "8.4": (-41, -108),
+                "2.1": (0, -174), "9.3": (0, -47)}
+        rows = [",".join(["time", *(f"{name}.{axis}" for name in rest for axis in "xy")])]
+        for time, drop in (("0", 0), ("0.1", 20)):
+            places = [(x, y - (drop if name == "2.1" else 0)) for name, (x, y) in rest.items()]
+            rows.append(",".join([time, *(str(value) for place in places for value in place)]))
+        picture.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        for flags, word in (([], "estimated"), (["--no-depth"], "none")):
+            result = self.done(run("animate", HEAD, "--points", POINTS, "--take", picture, "-o", self.out / "p.glb",
+                                   "--head", "keep", "--dry-run", "--json", *flags))
+            self.assertIn(word, json.loads(result.stdout)["depth"])
+
     def test_lids_and_lips_keep_contact_unless_told_otherwise(self):
         for flags, pairs in (([], True), (["--retarget-method", "fapu"], True), (["--no-contact"], False)):
             report = json.loads(self.done(self.animate(self.out / "a.glb", "--dry-run", "--json", *flags)).stdout)
