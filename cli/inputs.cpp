@@ -183,8 +183,9 @@ void add_retarget_flags(CLI::App& verb, RetargetOptions& options) {
             "of space")
         ->transform(CLI::CheckedTransformer(retarget_methods).description("local-affine, fapu or rbf"))
         ->default_str("local-affine");
-    verb.add_flag("--no-contact{false}", options.contact,
-                  "let lids and lips go their own ways, instead of meeting where the performer's meet");
+    verb.add_flag_callback(
+        "--no-contact", [&options] { options.contact = false; },
+        "let lids and lips go their own ways, instead of meeting where the performer's meet");
 }
 
 namespace {

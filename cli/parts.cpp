@@ -89,8 +89,9 @@ void add_performance_flags(CLI::App& verb, PerformanceFlags& flags, const std::s
             "eye distances, per upper point of a pair: 2.2=0.02,2.6=0.02,2.7=0.02")
         ->allow_extra_args(false)
         ->check(CLI::Validator(check_strength, "POINT=NUMBER"));
-    verb.add_flag("--no-depth{false}", flags.depth,
-                  "leave the points of a picture (a take without z) in their plane, instead of estimating their depth");
+    verb.add_flag_callback(
+        "--no-depth", [&flags] { flags.depth = false; },
+        "leave the points of a picture (a take without z) in their plane, instead of estimating their depth");
     verb.parse_complete_callback([&flags] { refuse_uneven(flags); });
 }
 

@@ -144,6 +144,11 @@ class CommandLine(unittest.TestCase):
         self.assertEqual({name: far for name, far in both.items() if name.startswith("4.")},
                          {name: far for name, far in all_of_it.items() if name.startswith("4.")})
 
+    def test_animate_merges_takes_as_well(self):
+        report = json.loads(self.done(self.animate(self.out / "a.glb", "--only", "brows", "--take", TAKE, "--only", "jaw",
+                                                   "--dry-run", "--json")).stdout)
+        self.assertEqual([one["take"]["file"] for one in report["merged"]], [TAKE.name])
+
     def test_a_picture_gets_depth_unless_told_otherwise(self):
         picture = self.work / "picture.csv"
         rest = {"3.7": (72, 1), "3.11": (28, -1), "3.12": (-72, 1), "3.8": (-28, -1), "8.3": (41, -108), "8.4": (-41, -108),
