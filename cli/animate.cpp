@@ -5,6 +5,7 @@
 
 #include "inputs.hpp"
 #include "outputs.hpp"
+#include "parts.hpp"
 
 #include "mien/error.hpp"
 
@@ -14,21 +15,19 @@ namespace {
 
 struct Animate {
     FaceFlags face;
-    TakeFlags take;
-    RetargetOptions retarget;
+    PerformanceFlags performance;
     OutputFlags output;
 };
 
 // The rig is bound to the points that the take drives and to no others: a point that nobody moves would hold its
 // surroundings fast, and an island whose own points are not driven is attached instead.
 void animate(Call& call, Animate& flags) {
-    check_output(flags.output.output, {flags.face.head, flags.face.points, flags.take.take, flags.take.map},
-                 call.flags);
+    std::vector<std::filesystem::path> inputs = input_files(flags.performance);
+    inputs.insert(inputs.end(), {flags.face.head, flags.face.points});
+    check_output(flags.output.output, inputs, call.flags);
     const Face face = load_face(flags.face, call.report);
-    const Take take = load_take(flags.take, call.report);
-    flags.retarget.reading = flags.face.rig.reading;
-    flags.retarget.neutral = flags.take.neutral;
-    const Take onto = load_onto(take, face, flags.retarget, call.report);
+    flags.performance.retarget.reading = flags.face.rig.reading;
+    const Take onto = load_performance(flags.performance, face, call.report);
     const Rig rig = bind_rig(with_points(face, onto.points), flags.face, call.report);
     write_performance(call, flags.output, face.mesh, rig, onto);
 }
@@ -41,9 +40,7 @@ void add_animate(CLI::App& app, Call& call) {
                               "mien animate kate.glb --points kate.json --take smile.trc --map markers.csv -o out.glb",
                               [&call, flags] { animate(call, *flags); });
     add_face_flags(*verb, flags->face);
-    verb->add_option("--take", flags->take.take, "the performance: .trc .csv")->required();
-    add_take_flags(*verb, flags->take);
-    add_retarget_flags(*verb, flags->retarget);
+    add_performance_flags(*verb, flags->performance, "--take");
     add_output_flags(*verb, flags->output);
 }
 

@@ -15,8 +15,8 @@ namespace mien::cli {
 namespace {
 
 const std::map<std::string, Reading> readings{{"paper", Reading::paper}, {"remedied", Reading::remedied}};
-const std::map<std::string, RetargetMethod> retarget_methods{{"local-affine", RetargetMethod::local_affine},
-                                                             {"rbf", RetargetMethod::rbf}};
+const std::map<std::string, RetargetMethod> retarget_methods{
+    {"local-affine", RetargetMethod::local_affine}, {"fapu", RetargetMethod::fapu}, {"rbf", RetargetMethod::rbf}};
 
 std::vector<std::string> rigger_names() {
     std::vector<std::string> names;
@@ -178,10 +178,15 @@ Take load_take(const TakeFlags& flags, Report& report) {
 
 void add_retarget_flags(CLI::App& verb, RetargetOptions& options) {
     add_reading_flag(verb, options.reading);
-    verb.add_option("--retarget-method", options.method,
-                    "how motion goes from face to face: one map per point, or a warp of space")
-        ->transform(CLI::CheckedTransformer(retarget_methods).description("local-affine or rbf"))
+    verb.add_option(
+            "--retarget-method", options.method,
+            "how motion goes from face to face: one map per point; the units of MPEG-4, for creatures; or a warp "
+            "of space")
+        ->transform(CLI::CheckedTransformer(retarget_methods).description("local-affine, fapu or rbf"))
         ->default_str("local-affine");
+    verb.add_flag_callback(
+        "--no-contact", [&options] { options.contact = false; },
+        "let lids and lips go their own ways, instead of meeting where the performer's meet");
 }
 
 namespace {
@@ -199,7 +204,8 @@ std::vector<std::string> not_in(const std::vector<std::string>& names, const std
 Take load_onto(const Take& take, const Face& face, const RetargetOptions& options, Report& report) {
     const Retarget map = fit_retarget(take, face, options);
     Report& about = report["retarget"];
-    about["method"] = map.local.empty() ? "rbf" : "local-affine";
+    about["method"] = map.local.empty() ? "rbf" : options.method == RetargetMethod::fapu ? "fapu" : "local-affine";
+    about["pairs_in_contact"] = map.pairs.size();
     about["points_driven"] = map.points.size();
     std::vector<std::string> ids;
     for (const FeaturePoint& point : face.points) ids.push_back(point.id);

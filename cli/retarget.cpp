@@ -5,6 +5,7 @@
 
 #include "inputs.hpp"
 #include "outputs.hpp"
+#include "parts.hpp"
 
 #include "mien/algorithms/complete.hpp"
 #include "mien/io/read.hpp"
@@ -16,19 +17,18 @@ namespace {
 
 struct RetargetTake {
     std::filesystem::path rig;
-    TakeFlags take;
-    RetargetOptions retarget;
+    PerformanceFlags performance;
     std::filesystem::path output;
     bool driven_only = false;
 };
 
-void retarget(Call& call, RetargetTake& flags) {
-    check_output(flags.output, {flags.rig, flags.take.take, flags.take.map}, call.flags);
+void retarget(Call& call, const RetargetTake& flags) {
+    std::vector<std::filesystem::path> inputs = input_files(flags.performance);
+    inputs.push_back(flags.rig);
+    check_output(flags.output, inputs, call.flags);
     RigFile file = read_rig(flags.rig);
     const Face face{std::move(file.mesh), std::move(file.rig.points)};
-    const Take take = load_take(flags.take, call.report);
-    flags.retarget.neutral = flags.take.neutral;
-    Take onto = load_onto(take, face, flags.retarget, call.report);
+    Take onto = load_performance(flags.performance, face, call.report);
     if (!flags.driven_only) onto = complete(face, onto);
     WriteOptions options;
     options.overwrite = call.flags.force;
@@ -44,10 +44,8 @@ void add_retarget(CLI::App& app, Call& call) {
     CLI::App* verb = add_verb(app, call, "retarget", "Maps a performer's points to the points of a rigged face.",
                               "mien retarget smile.trc --rig kate-rig.glb --map markers.csv -o smile-on-kate.csv",
                               [&call, flags] { retarget(call, *flags); });
-    verb->add_option("take", flags->take.take, "the performance: .trc .csv")->required();
+    add_performance_flags(*verb, flags->performance, "take");
     verb->add_option("--rig", flags->rig, "the rigged face (.glb written by mien rig)")->required();
-    add_take_flags(*verb, flags->take);
-    add_retarget_flags(*verb, flags->retarget);
     verb->add_flag("--driven-only", flags->driven_only,
                    "leave out the rig's points that the take does not drive, instead of carrying them with the skin");
     verb->add_option("-o,--output", flags->output, "the take to write: .csv .trc")->required();

@@ -11,6 +11,9 @@
 #include <span>
 #include <utility>
 
+#include "algorithms/face_frame.hpp"
+#include "algorithms/retarget_contact.hpp"
+#include "algorithms/retarget_fapu.hpp"
 #include "algorithms/retarget_local.hpp"
 #include "algorithms/retarget_rbf.hpp"
 #include "algorithms/rotation.hpp"
@@ -61,12 +64,15 @@ Retarget fit_retarget(const Take& take, const Face& face, const RetargetOptions&
     Retarget map = shared_points(take, face, options.neutral);
     refuse_coinciding(map.points, map.source_neutral, "take's neutral");
     refuse_coinciding(map.points, map.target_neutral, "face");
-    if (options.reading == Reading::paper)
-        fit_as_written(map);
-    else if (options.method == RetargetMethod::rbf)
-        fit_with_affine(map);
-    else
-        fit_local_affine(map, eye_distance(face.points));
+    if (options.reading == Reading::paper || options.method == RetargetMethod::rbf) {
+        options.reading == Reading::paper ? fit_as_written(map) : fit_with_affine(map);
+        for (const Vec3& s : map.source_neutral) map.at_rest.push_back(retarget(map, s));
+        return map;
+    }
+    const FaceFrames frames = face_frames(map, eye_distance(face.points));
+    fit_local_affine(map, frames);
+    if (options.method == RetargetMethod::fapu) fit_fapu(map, frames, take, face, options.neutral);
+    if (options.contact) fit_contact(map, frames, face.points, options.sealed);
     return map;
 }
 
@@ -93,27 +99,30 @@ Pose pose_on_target(const Similarity& map, const Pose& pose) {
 }
 
 // From the sample's place to the target's motion, without what the neutral itself maps to.
-Vec3 motion(const Retarget& map, std::size_t i, const Vec3& p, const Vec3& at_rest) {
-    if (map.local.empty()) return retarget(map, p) - at_rest;
+Vec3 motion(const Retarget& map, std::size_t i, const Vec3& p) noexcept {
+    if (map.local.empty()) return retarget(map, p) - map.at_rest[i];
     const Vec3 d = p - map.source_neutral[i];
     return d.x * map.local[i][0] + d.y * map.local[i][1] + (map.planar ? 0 : d.z) * map.local[i][2];
 }
 
 }  // namespace
 
+void retarget(const Retarget& map, std::span<const Vec3> source, std::span<Vec3> target) noexcept {
+    for (std::size_t i = 0; i < source.size(); ++i)
+        target[i] = is_finite(source[i]) ? motion(map, i, source[i]) : lost_sample;
+    keep_contact(map, source, target);
+    for (std::size_t i = 0; i < source.size(); ++i) target[i] += map.target_neutral[i];
+}
+
 Take retarget(const Retarget& map, const Take& take) {
     const std::vector<std::size_t> columns = columns_of(map, take);
-    std::vector<Vec3> at_rest;
-    for (const Vec3& s : map.source_neutral) at_rest.push_back(retarget(map, s));
-
     Take result{map.points, take.times, {}, {}, {}, false, take.repeated_rows};
-    result.samples.reserve(row_count(take) * columns.size());
-    for (std::size_t r = 0; r < row_count(take); ++r)
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            const Vec3& p = row(take, r)[columns[i]];
-            const Vec3 moved = map.target_neutral[i] + motion(map, i, p, at_rest[i]);
-            result.samples.push_back(is_finite(p) ? moved : lost_sample);
-        }
+    result.samples.resize(row_count(take) * columns.size());
+    std::vector<Vec3> source(columns.size());
+    for (std::size_t r = 0; r < row_count(take); ++r) {
+        for (std::size_t i = 0; i < columns.size(); ++i) source[i] = row(take, r)[columns[i]];
+        retarget(map, source, row(result, r));
+    }
     const Similarity base = best_similarity(map);
     for (const Pose& pose : take.head) result.head.push_back(pose_on_target(base, pose));
     return result;

@@ -3,12 +3,13 @@
 
 // Retargeting by one linear map per point: how the target's neutral lies to the source's near that point.
 //
-// Both neutrals are first laid onto each other by the best similarity; with s and t the points then, in eye distances,
-// and w_i = 1 / (|s_i - s_j|^2 + 1), normalised, about the weighted means a and b:
+// Each neutral is put into its own face's axes and divided by its eye distance. With s and t the points then, and
+// w_i = 1 / (|s_i - s_j|^2 + 1), normalised, about the weighted means a and b:
 //
-//     M = sum w (s - a)(s - a)^T,  N = sum w (t - b)(s - a)^T,  r = 0.2 trace M,  A_j = (N + r I)(M + r I)^-1
+//     M = sum w (s - a)(s - a)^T,  N = sum w (t - b)(s - a)^T,  r = 0.25 trace M,  A_j = (N + r G I)(M + r I)^-1
 //
-// The ridge r pulls the map towards the similarity where the points say little: across a flat set, and for few points.
+// with G the ratio of the root mean square radii. The ridge r pulls the map towards a change of size alone where the
+// points say little: across a flat set, and for few points.
 // A face has two alike halves, so A_j is averaged with the mirrored map of the point's partner on the other side; a
 // source whose neutral is a little skew does not pull the target's mouth aside.
 //
@@ -19,7 +20,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <string_view>
 #include <vector>
 
 #include "algorithms/rotation.hpp"
@@ -32,8 +32,8 @@ namespace mien {
 
 namespace {
 
-constexpr double reach = 1;   // in eye distances: points nearer than that count about alike
-constexpr double pull = 0.2;  // towards the similarity
+constexpr double reach = 1;    // in eye distances: points nearer than that count about alike
+constexpr double pull = 0.25;  // towards a change of size alone
 
 using Points = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 using Maps = std::vector<Eigen::Matrix3d>;
@@ -45,20 +45,18 @@ Vec3 vec(const Eigen::Vector3d& v) {
     return {v[0], v[1], v[2]};
 }
 
-// The source laid onto the target, and the target, in eye distances.
-Points columns(const std::vector<Vec3>& points, double unit) {
+// The points in the axes of their face and in eye distances.
+Points columns(const std::vector<Vec3>& points, const FaceFrame& frame) {
+    const Vec3 origin = centre(points);
     Points result(3, points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = eigen(points[i]) / unit;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        result.col(static_cast<Eigen::Index>(i)) =
+            eigen(rotate(conjugate(frame.turn), points[i] - origin)) / frame.eyes;
     return result;
 }
 
-std::vector<Vec3> laid_onto(const Similarity& base, std::vector<Vec3> points) {
-    for (Vec3& p : points) p = apply(base, p);
-    return points;
-}
-
 // A_j.
-Eigen::Matrix3d local_map(const Points& s, const Points& t, Eigen::Index j) {
+Eigen::Matrix3d local_map(const Points& s, const Points& t, double G, Eigen::Index j) {
     Eigen::RowVectorXd w = ((s.colwise() - s.col(j)).colwise().squaredNorm().array() + reach * reach).inverse();
     w /= w.sum();
     const Points s_a = s.colwise() - Eigen::Vector3d(s * w.transpose());
@@ -66,8 +64,8 @@ Eigen::Matrix3d local_map(const Points& s, const Points& t, Eigen::Index j) {
     const Eigen::Matrix3d M = s_a * w.asDiagonal() * s_a.transpose();
     const Eigen::Matrix3d N = t_b * w.asDiagonal() * s_a.transpose();
     const Eigen::Matrix3d ridge = pull * M.trace() * Eigen::Matrix3d::Identity();
-    if (!(M.trace() > 0)) return Eigen::Matrix3d::Identity();
-    return (M + ridge).ldlt().solve((N + ridge).transpose()).transpose();
+    if (!(M.trace() > 0)) return G * Eigen::Matrix3d::Identity();
+    return (M + ridge).ldlt().solve((N + G * ridge).transpose()).transpose();
 }
 
 // Index of each point's partner on the other side: its own on the midline, -1 where there is none.
@@ -102,19 +100,21 @@ Maps made_symmetric(const Maps& maps, const std::vector<Eigen::Index>& partner, 
 
 }  // namespace
 
-void fit_local_affine(Retarget& map, double eye_distance) {
-    // A single point has no size, and any will do.
-    const double unit = eye_distance > 0 ? eye_distance : 1;
-    const Similarity base = best_similarity(map);
-    const Points s = columns(laid_onto(base, map.source_neutral), unit);
-    const Points t = columns(map.target_neutral, unit);
+void fit_local_affine(Retarget& map, const FaceFrames& frames) {
+    const FaceFrame &source = frames.source, &target = frames.target;
+    const Points s = columns(map.source_neutral, source);
+    const Points t = columns(map.target_neutral, target);
+    const double G = best_similarity(map).ratio * source.eyes / target.eyes;
     Maps maps;
-    for (Eigen::Index j = 0; j < s.cols(); ++j) maps.push_back(local_map(s, t, j));
+    for (Eigen::Index j = 0; j < s.cols(); ++j) maps.push_back(local_map(s, t, G, j));
     const std::vector<Eigen::Index> partner = partners(map.points);
-    const Eigen::Vector3d across = sideways(t, partner);
+    const Eigen::Vector3d across = frames.known ? Eigen::Vector3d::UnitX() : sideways(t, partner);
     if (across.norm() > 0) maps = made_symmetric(maps, partner, across);
     for (const Eigen::Matrix3d& A : maps) {
-        const auto column = [&](const Vec3& axis) { return vec(A * eigen(base.ratio * rotate(base.rotation, axis))); };
+        const auto column = [&](const Vec3& axis) {
+            const Eigen::Vector3d in_face = eigen(rotate(conjugate(source.turn), axis)) / source.eyes;
+            return target.eyes * rotate(target.turn, vec(A * in_face));
+        };
         map.local.push_back({column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1})});
         for (const Vec3& c : map.local.back())
             if (!is_finite(c)) throw Error("retarget: expected points within the range of numbers, found some beyond");

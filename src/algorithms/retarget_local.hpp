@@ -3,12 +3,14 @@
 
 #pragma once
 
+#include "algorithms/face_frame.hpp"
+
 #include "mien/retarget.hpp"
 
 namespace mien {
 
-/// Fits one linear map per point to the neutral points that `map` holds. `eye_distance`: the target's; 0 for a
-/// single point. Throws Error if the points are so far apart that the maps are not finite.
-void fit_local_affine(Retarget& map, double eye_distance);
+/// Fits one linear map per point to the neutral points that `map` holds. Throws Error if the points are so far apart
+/// that the maps are not finite.
+void fit_local_affine(Retarget& map, const FaceFrames& frames);
 
 }  // namespace mien

@@ -101,7 +101,7 @@ std::string sentence_of(F&& f) {
 constexpr Reading readings[] = {Reading::paper, Reading::remedied};
 const RetargetOptions paper{RetargetMethod::rbf, Reading::paper, {}};
 const RetargetOptions network{RetargetMethod::rbf, Reading::remedied, {}};
-const RetargetOptions local{RetargetMethod::local_affine, Reading::remedied, {}};
+const RetargetOptions local{RetargetMethod::local_affine, Reading::remedied, {}, false};
 const RetargetOptions lawful[] = {network, local};
 
 Take performed(const Take& take, const Face& face, const RetargetOptions& options = network) {
@@ -430,7 +430,7 @@ TEST(LocalAffine, four_points_on_two_axes_have_the_closed_form) {
     const double sum = near + far + 2 * beside;
     const double mean = s * (near - far) / sum, mean_t = tx * (near - far) / sum;
     const double m_x = (near + far) / sum * s * s - mean * mean, n_x = (near + far) / sum * s * tx - mean * mean_t;
-    const double m_y = 2 * beside / sum * s * s, n_y = 2 * beside / sum * s * ty, r = 0.2 * (m_x + m_y);
+    const double m_y = 2 * beside / sum * s * s, n_y = 2 * beside / sum * s * ty, r = 0.25 * (m_x + m_y);
     EXPECT_LT(distance(map.local[0][0], {ratio * (n_x + r) / (m_x + r), 0, 0}), 1e-12);
     EXPECT_LT(distance(map.local[0][1], {0, ratio * (n_y + r) / (m_y + r), 0}), 1e-12);
     EXPECT_LT(distance(map.local[0][2], {0, 0, ratio}), 1e-12);

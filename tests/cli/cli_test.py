@@ -106,7 +106,67 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(copy.read_bytes(), before)
             link.unlink()
 
+    def test_parts_that_are_none_and_takes_without_their_parts_are_refused(self):
+        self.refused(self.animate(self.out / "a.glb", "--only", "mouht"), 1, "mouht", "mouth, jaw, brows")
+        self.refused(self.animate(self.out / "a.glb", "--strength", "mouth"), 2, "mouth=1.2")
+        self.refused(self.animate(self.out / "a.glb", "--take", self.take, "--only", "mouth"), 2, "--only")
+        self.refused(self.animate(self.out / "a.glb", "--sealed", "4.1=0"), 1, "4.1", "pair")
+
     # What goes right.
+
+    def moving(self, *flags):
+        """The points that a retarget moves by more than a hundredth of a millimetre, and how far."""
+        rig, onto = self.out / "r.glb", self.out / "onto.csv"
+        self.done(run("rig", HEAD, "--points", POINTS, "-o", rig, "-f"))
+        self.done(run("retarget", *flags, "--rig", rig, "--map", MAP, "--driven-only", "-o", onto, "-f"))
+        names, *rows = [line.split(",") for line in onto.read_text(encoding="utf-8").splitlines()]
+        far = {}
+        for column in [i for i, name in enumerate(names) if re.fullmatch(r"\d+\.\d+\.x", name)]:
+            seen = [list(map(float, row[column:column + 3])) for row in rows if row[column]]
+            distance = max(math.dist(at, seen[0]) for at in seen)
+            if distance > 1e-5:
+                far[names[column].removesuffix(".x")] = distance
+        return far
+
+    def test_only_the_parts_that_are_asked_for_move_and_as_strongly(self):
+        all_of_it = self.moving(self.take)
+        brows = self.moving(self.take, "--only", "brows")
+        self.assertEqual(set(brows), {name for name in all_of_it if name.startswith("4.")})
+        self.assertEqual(brows, {name: all_of_it[name] for name in brows})
+        rest = self.moving(self.take, "--without", "brows,mouth", "--strength", "jaw=0.5")
+        self.assertFalse([name for name in rest if name.split(".")[0] in ("4", "8")])
+        self.assertAlmostEqual(rest["2.1"] / all_of_it["2.1"], 0.5, places=3)
+
+    def test_two_takes_are_merged_by_their_parts(self):
+        all_of_it = self.moving(self.take)
+        both = self.moving(self.take, "--only", "brows", TAKE, "--only", "mouth")
+        self.assertEqual({name.split(".")[0] for name in both} - {"2"}, {"4", "8"})
+        self.assertEqual({name: far for name, far in both.items() if name.startswith("4.")},
+                         {name: far for name, far in all_of_it.items() if name.startswith("4.")})
+
+    def test_animate_merges_takes_as_well(self):
+        report = json.loads(self.done(self.animate(self.out / "a.glb", "--only", "brows", "--take", TAKE, "--only", "jaw",
+                                                   "--dry-run", "--json")).stdout)
+        self.assertEqual([one["take"]["file"] for one in report["merged"]], [TAKE.name])
+
+    def test_a_picture_gets_depth_unless_told_otherwise(self):
+        picture = self.work / "picture.csv"
+        rest = {"3.7": (72, 1), "3.11": (28, -1), "3.12": (-72, 1), "3.8": (-28, -1), "8.3": (41, -108), "8.4": (-41, -108),
+                "2.1": (0, -174), "9.3": (0, -47)}
+        rows = [",".join(["time", *(f"{name}.{axis}" for name in rest for axis in "xy")])]
+        for time, drop in (("0", 0), ("0.1", 20)):
+            places = [(x, y - (drop if name == "2.1" else 0)) for name, (x, y) in rest.items()]
+            rows.append(",".join([time, *(str(value) for place in places for value in place)]))
+        picture.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        for flags, word in (([], "estimated"), (["--no-depth"], "none")):
+            result = self.done(run("animate", HEAD, "--points", POINTS, "--take", picture, "-o", self.out / "p.glb",
+                                   "--head", "keep", "--dry-run", "--json", *flags))
+            self.assertIn(word, json.loads(result.stdout)["depth"])
+
+    def test_lids_and_lips_keep_contact_unless_told_otherwise(self):
+        for flags, pairs in (([], True), (["--retarget-method", "fapu"], True), (["--no-contact"], False)):
+            report = json.loads(self.done(self.animate(self.out / "a.glb", "--dry-run", "--json", *flags)).stdout)
+            self.assertEqual(report["retarget"]["pairs_in_contact"] > 0, pairs)
 
     def test_json_is_one_object_on_stdout(self):
         rig = self.out / "r.glb"
