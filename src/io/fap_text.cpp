@@ -77,6 +77,11 @@ public:
         return true;
     }
 
+    void skip_byte_order_mark() {
+        while (skip("\xef\xbb\xbf")) {
+        }
+    }
+
     // The whole number of at most 9 digits that stands here as a word, or nothing, and the place is kept.
     std::optional<std::int32_t> small_number() {
         const char* c = at_;
@@ -131,10 +136,13 @@ struct Header {
 };
 
 Header read_header(Cursor& cursor) {
+    cursor.skip_byte_order_mark();
     if (!cursor.to_word()) throw Error("fap: expected 'version name fps frames', found an empty file");
+    cursor.skip_byte_order_mark();
     Header header;
     header.stream.version = cursor.word();
     const Cursor before = cursor;
+    if (header.stream.version.empty()) before.fail("expected a version behind the byte order mark, found nothing");
     std::string_view line = cursor.line();
     const std::string_view frames = last_word(line), rate = last_word(line);
     const std::optional<double> fps = parse_double(rate);
@@ -248,8 +256,7 @@ void read_values(Cursor& cursor, const Columns& columns, const FapTextOptions& o
 
 FapStream parse_fap_text(std::span<const std::byte> bytes, const FapTextOptions& options) {
     check_text(bytes, "fap");
-    std::string_view text = as_text(bytes);
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::string_view text = as_text(bytes);
     Cursor cursor(text);
     auto [stream, promised] = read_header(cursor);
     constexpr std::size_t shortest_frame = 2 * fap_count + 1;

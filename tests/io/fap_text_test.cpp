@@ -67,6 +67,8 @@ TEST(FapText, SpareColumnsAreReadOver) {
     EXPECT_EQ(one.frames.at(0).mask.count(), 1U);
     EXPECT_EQ(one.frames.at(0).value[fap_index(19)], 5);
     EXPECT_EQ(parse("2.1 x 25 1\n" + mask({19}, 69) + "0 5\n").frames.at(0), one.frames[0]);
+    const FapStream late = parse("2.1 x 25 1\n" + mask({19}) + "0 5\n" + mask({19, 69}, 69) + "1 6 99\n");
+    EXPECT_EQ(late.frames.at(1).value[fap_index(19)], 6);
 }
 
 TEST(FapText, VisemesAreFourNumbersAndExpressionsSix) {
@@ -93,6 +95,12 @@ TEST(FapText, CommentsBlankLinesTabsAndLineEndsMakeNoDifference) {
     std::string windows;
     for (const char c : tabs) windows += c == '\n' ? "\r\n" : std::string(1, c);
     EXPECT_EQ(parse(windows).frames, plain.frames);
+    EXPECT_EQ(parse("# joined\n\xef\xbb\xbf"
+                    "2.1 x 25 1\n" +
+                    mask({3}) + "0 1\n")
+                  .version,
+              "2.1");
+    EXPECT_THAT(refusal("\xef\xbb\xbf x 25 1\n"), HasSubstr("fap"));
 }
 
 TEST(FapText, AMaskMayGoOverSeveralLines) {
