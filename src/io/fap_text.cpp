@@ -77,11 +77,6 @@ public:
         return true;
     }
 
-    void skip_byte_order_mark() {
-        while (skip("\xef\xbb\xbf")) {
-        }
-    }
-
     // The whole number of at most 9 digits that stands here as a word, or nothing, and the place is kept.
     std::optional<std::int32_t> small_number() {
         const char* c = at_;
@@ -136,13 +131,12 @@ struct Header {
 };
 
 Header read_header(Cursor& cursor) {
-    cursor.skip_byte_order_mark();
-    if (!cursor.to_word()) throw Error("fap: expected 'version name fps frames', found an empty file");
-    cursor.skip_byte_order_mark();
+    do {
+        if (!cursor.to_word()) throw Error("fap: expected 'version name fps frames', found an empty file");
+    } while (cursor.skip("\xef\xbb\xbf"));  // a byte order mark
     Header header;
     header.stream.version = cursor.word();
     const Cursor before = cursor;
-    if (header.stream.version.empty()) before.fail("expected a version behind the byte order mark, found nothing");
     std::string_view line = cursor.line();
     const std::string_view frames = last_word(line), rate = last_word(line);
     const std::optional<double> fps = parse_double(rate);
