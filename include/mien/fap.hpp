@@ -135,7 +135,7 @@ struct VisemeName {
 };
 
 /// The 14 visemes, and 0: none.
-inline constexpr std::array<VisemeName, 15> visemes{{
+inline constexpr std::array<VisemeName, 15> viseme_names{{
     {"sil", ""},
     {"PP", "p, b, m"},
     {"FF", "f, v"},
@@ -154,8 +154,8 @@ inline constexpr std::array<VisemeName, 15> visemes{{
 }};
 
 /// The 6 expressions of FAP 2, and 0: none.
-inline constexpr std::array<std::string_view, 7> expressions{"none", "joy",     "sadness", "anger",
-                                                             "fear", "disgust", "surprise"};
+inline constexpr std::array<std::string_view, 7> expression_names{"none", "joy",     "sadness", "anger",
+                                                                  "fear", "disgust", "surprise"};
 
 /// The first parameter of every group, by index, and the end of the last: groups are runs of the table.
 inline constexpr std::array<std::size_t, 11> fap_group_starts{0, 2, 18, 30, 38, 42, 47, 50, 60, 64, 68};

@@ -146,7 +146,8 @@ private:
     void check_number(std::size_t channel) {
         const std::int64_t number = previous_[channel];
         const bool select = kind_of(channel) == ChannelKind::select;
-        const auto most = static_cast<std::int64_t>(fap_of_channel(channel) == 0 ? visemes.size() : expressions.size());
+        const auto most =
+            static_cast<std::int64_t>(fap_of_channel(channel) == 0 ? viseme_names.size() : expression_names.size());
         if (select && (number < 0 || number >= most))
             bits_.fail(fmt::format("expected a selection from 0 to {}, found {}", most - 1, number));
         if (number < std::numeric_limits<std::int32_t>::min() || number > std::numeric_limits<std::int32_t>::max())

@@ -83,8 +83,8 @@ namespace {
 // The largest level of a channel whose limits are not sent.
 int most_choice(std::size_t channel, int quant) {
     if (kind_of(channel) == ChannelKind::strength) return (63 + quant / 2) / std::max(quant, 1);
-    return channel < first_expression_channel ? static_cast<int>(visemes.size()) - 1
-                                              : static_cast<int>(expressions.size()) - 1;
+    return channel < first_expression_channel ? static_cast<int>(viseme_names.size()) - 1
+                                              : static_cast<int>(expression_names.size()) - 1;
 }
 
 }  // namespace
