@@ -188,6 +188,25 @@ TEST(Fba, AVisemeAndAnExpressionKeepWhatTheySelect) {
     for (int quant = 2; quant < 32; ++quant) expect_reads_back(stream, {.quant = quant});
 }
 
+TEST(Fba, AHalfStepGoesToZeroAndOtherHalvesAwayFromIt) {
+    // FAP 4 has a step of 2, so levels of 6 with quantiser 3. Each frame after the first codes a difference.
+    FapStream stream = one_frame({4});
+    const std::vector<int> values = {3, 6, 9, 21, 18, -3, -9}, expected = {0, 6, 6, 24, 18, -6, -6};
+    for (std::size_t f = 0; f < values.size(); ++f) {
+        if (f > 0) stream.frames.push_back(stream.frames[0]);
+        stream.frames[f].number = static_cast<std::uint32_t>(f);
+        stream.frames[f].value[fap_index(4)] = values[f];
+    }
+    const FapStream decoded = parse(format_fba(stream, {.quant = 3}).bytes).stream;
+    // 3 - 0 is half a step: 0. 6 - 0: 6. 9 - 6 is half: 6. 21 - 6 is two and a half: 24. 18 - 24: 18. -3 - 18 is three
+    // and a half: 18 - 24 = -6. -9 + 6 is half: -6.
+    for (std::size_t f = 0; f < values.size(); ++f) EXPECT_EQ(decoded.frames[f].value[fap_index(4)], expected[f]) << f;
+    // On its own, -9 is one and a half: two levels.
+    FapStream alone = one_frame({4});
+    alone.frames[0].value[fap_index(4)] = -9;
+    EXPECT_EQ(parse(format_fba(alone, {.quant = 3}).bytes).stream.frames[0].value[fap_index(4)], -12);
+}
+
 TEST(Fba, StandingStillCostsNextToNothing) {
     FapStream stream = one_frame({3, 4, 5, 51, 52});
     for (std::uint32_t f = 1; f < 1000; ++f) {
