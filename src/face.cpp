@@ -4,10 +4,8 @@
 #include "mien/face.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
-#include <utility>
 
 namespace mien {
 
@@ -59,32 +57,6 @@ double eye_distance(std::span<const FeaturePoint> points) {
         eye(points, {"3.8", "3.12", "3.6", "3.6", "3.2", "3.4", "3.10", "3.14", "3.2", "3.2", "3.4", "3.4"});
     if (left && right && *left != *right) return distance(*left, *right);
     return 0.6 * root_mean_square_radius(points);
-}
-
-namespace {
-
-// The subject's left, then right.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 32> mirror_pairs{
-    {{"2.4", "2.5"},    {"2.6", "2.7"},   {"2.8", "2.9"},   {"2.11", "2.12"}, {"2.13", "2.14"}, {"3.1", "3.2"},
-     {"3.3", "3.4"},    {"3.5", "3.6"},   {"3.7", "3.12"},  {"3.9", "3.10"},  {"3.11", "3.8"},  {"3.13", "3.14"},
-     {"4.1", "4.2"},    {"4.3", "4.4"},   {"4.5", "4.6"},   {"5.1", "5.2"},   {"5.3", "5.4"},   {"6.3", "6.4"},
-     {"8.3", "8.4"},    {"8.5", "8.6"},   {"8.7", "8.8"},   {"8.10", "8.9"},  {"9.1", "9.2"},   {"9.5", "9.4"},
-     {"9.7", "9.6"},    {"9.13", "9.14"}, {"10.1", "10.2"}, {"10.3", "10.4"}, {"10.5", "10.6"}, {"10.7", "10.8"},
-     {"10.9", "10.10"}, {"11.3", "11.2"}}};
-
-constexpr std::array<std::string_view, 20> midline{"2.1",  "2.2",  "2.3",  "2.10", "6.1",  "6.2",  "7.1",
-                                                   "8.1",  "8.2",  "9.3",  "9.8",  "9.9",  "9.10", "9.11",
-                                                   "9.12", "9.15", "11.1", "11.4", "11.5", "11.6"};
-
-}  // namespace
-
-std::string_view mirror_point(std::string_view id) {
-    for (const auto& [left, right] : mirror_pairs) {
-        if (id == left) return right;
-        if (id == right) return left;
-    }
-    const auto found = std::find(midline.begin(), midline.end(), id);
-    return found == midline.end() ? std::string_view{} : *found;
 }
 
 }  // namespace mien

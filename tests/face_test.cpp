@@ -67,10 +67,25 @@ TEST(Face, MirrorPointsAreThoseOfTheStandard) {
     std::getline(file, line);
     while (std::getline(file, line)) {
         if (line.ends_with('\r')) line.pop_back();
-        EXPECT_EQ(mirror_point(line.substr(0, line.find(','))), line.substr(line.rfind(',') + 1)) << line;
+        const std::string id = line.substr(0, line.find(','));
+        EXPECT_EQ(mirror_point(id), line.substr(line.rfind(',') + 1)) << line;
+        ASSERT_LT(count, standard_points().size());
+        EXPECT_EQ(standard_points()[count].id, id);
         ++count;
     }
     EXPECT_EQ(count, 84U);
+}
+
+TEST(Face, StandardPointsComeInMirroredPairs) {
+    EXPECT_EQ(standard_points().size(), 84U);
+    for (const StandardPoint& point : standard_points()) {
+        EXPECT_EQ(mirror_point(point.mirror), point.id);
+        EXPECT_EQ(point.side == Side::middle, point.mirror == point.id);
+        for (const StandardPoint& other : standard_points())
+            if (other.id == point.mirror && point.side != Side::middle) {
+                EXPECT_NE(point.side, other.side) << point.id;
+            }
+    }
 }
 
 }  // namespace

@@ -47,6 +47,19 @@ Face with_points(const Face& face, std::span<const std::string> ids);
 /// points, or at last as 0.6 of the root-mean-square radius of all the points. Zero only for a single point.
 double eye_distance(std::span<const FeaturePoint> points);
 
+enum class Side { left, middle, right };  ///< of the subject, not of the one who looks at it
+
+/// One of the 84 feature points that MPEG-4 defines.
+struct StandardPoint {
+    std::string_view id;
+    Side side = Side::middle;
+    std::string_view mirror;  ///< the point on the other side of the face; itself on the midline
+    std::string_view place;   ///< where it is, in words
+};
+
+/// All of them, in the order of the standard.
+std::span<const StandardPoint> standard_points();
+
 /// The MPEG-4 point on the other side of the face; the point itself on the midline; empty for ids of no MPEG-4 point.
 std::string_view mirror_point(std::string_view id);
 

@@ -92,7 +92,8 @@ struct Channel {
 
 /// Everything that is drawn, at rest, and how it moves. All indices are in range, all numbers finite.
 struct Scene {
-    std::vector<Surface> surfaces;  ///< in file order: meshes, then primitives; a mesh shown again is one more, behind all
+    std::vector<Surface>
+        surfaces;  ///< in file order: meshes, then primitives; a mesh shown again is one more, behind all
     std::vector<Material> materials;
     std::vector<Picture> pictures;
     std::vector<Node> nodes;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#pragma once
+
+#include <array>
+
+#include "mien/fap.hpp"
+
+namespace mien {
+
+/// What visemes and expressions look like at full strength: the parameters in the mask, FAP units.
+struct FapPoses {
+    std::array<FapFrame, viseme_names.size()> visemes;
+    std::array<FapFrame, expression_names.size()> expressions;
+};
+
+/// mien's own, made after the descriptions of the standard, which leaves their amounts to the decoder. Copy and change
+/// them for a face that speaks otherwise.
+FapPoses standard_poses();
+
+/// Says outright what a stream leaves to its decoder, frame by frame: the result has no FAP 1 and 2, and its masks hold
+/// every parameter whose value can be known. In this order of precedence a value is
+///  1. what the frame sends;
+///  2. what the visemes and expressions of FAPs 1 and 2 ask for, the two added: select1 * blend / 63 + select2 *
+///     (1 - blend / 63), and select1 * intensity1 / 63 + select2 * intensity2 / 63. With `define` the frame's own
+///     parameters become the pose of select1 from then on;
+///  3. what was sent last, unless the frame's group is marked to be interpolated;
+///  4. the value of the same parameter on the other side of the face;
+///  5. the value of the same parameter of the other lip contour, inner or outer.
+/// FAPs 1 and 2 that are not sent hold, too. A face without them and without a source rests: the parameter stays out.
+FapStream resolve_faps(const FapStream& stream, FapPoses poses = standard_poses());
+
+}  // namespace mien

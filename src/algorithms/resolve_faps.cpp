@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// What a decoder of ISO/IEC 14496-2 does before it moves a face: visemes and expressions are put into parameters, and
+// missing parameters are interpolated, left from right and inner lip from outer lip and back.
+
+#include "mien/algorithms/resolve_faps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+
+namespace mien {
+
+namespace {
+
+struct Amount {
+    int fap;
+    int value;
+};
+
+// A pose of both sides and both contours of the lips from one of each.
+FapFrame pose(std::initializer_list<Amount> amounts) {
+    FapFrame frame;
+    const auto set = [&](int fap, int value) {
+        frame.mask.set(fap_index(fap));
+        frame.value[fap_index(fap)] = value;
+    };
+    for (const auto& [fap, value] : amounts)
+        for (const int side : {fap, fap_info(fap).mirror}) {
+            set(side, value);
+            if (const int partner = fap_info(side).partner; partner != 0) set(partner, value);
+        }
+    return frame;
+}
+
+// A mouth: the jaw down, upper lip up and lower lip down at their middles (the points beside them go 0.7 of it),
+// corners outwards and upwards, both lips forward, the tip of the tongue up and out.
+struct Mouth {
+    int jaw = 0, upper = 0, lower = 0, wide = 0, corners = 0, forward = 0, tongue_up = 0, tongue_out = 0;
+};
+
+FapFrame pose(const Mouth& mouth) {
+    const auto beside = [](int value) { return static_cast<int>(std::lround(0.7 * value)); };
+    return pose({{3, mouth.jaw},
+                 {4, -mouth.upper},
+                 {8, -beside(mouth.upper)},
+                 {5, -mouth.lower},
+                 {10, -beside(mouth.lower)},
+                 {6, mouth.wide},
+                 {12, mouth.corners},
+                 {16, mouth.forward},
+                 {17, mouth.forward},
+                 {44, mouth.tongue_up},
+                 {45, mouth.tongue_out}});
+}
+
+}  // namespace
+
+FapPoses standard_poses() {
+    FapPoses poses;
+    poses.visemes = {FapFrame{},
+                     pose(Mouth{.upper = -60, .lower = -80, .wide = -30, .forward = 40}),
+                     pose(Mouth{.jaw = 60, .upper = 40, .lower = -120, .wide = 30, .forward = -60}),
+                     pose(Mouth{.jaw = 150, .upper = 70, .lower = 150, .tongue_up = 100, .tongue_out = 150}),
+                     pose(Mouth{.jaw = 120, .upper = 60, .lower = 140, .tongue_up = 200}),
+                     pose(Mouth{.jaw = 170, .upper = 70, .lower = 180}),
+                     pose(Mouth{.jaw = 100, .upper = 130, .lower = 180, .wide = -110, .forward = 200}),
+                     pose(Mouth{.jaw = 50, .upper = 80, .lower = 120, .wide = 80}),
+                     pose(Mouth{.jaw = 130, .upper = 60, .lower = 150, .tongue_up = 220}),
+                     pose(Mouth{.jaw = 120, .upper = 90, .lower = 150, .wide = -90, .forward = 130}),
+                     pose(Mouth{.jaw = 600, .upper = 100, .lower = 560}),
+                     pose(Mouth{.jaw = 250, .upper = 100, .lower = 280, .wide = 80}),
+                     pose(Mouth{.jaw = 130, .upper = 100, .lower = 200, .wide = 120}),
+                     pose(Mouth{.jaw = 400, .upper = 100, .lower = 400, .wide = -120, .forward = 130}),
+                     pose(Mouth{.jaw = 150, .upper = 60, .lower = 160, .wide = -200, .forward = 240})};
+    poses.expressions = {
+        FapFrame{},
+        pose({{3, 100}, {4, -80}, {8, -60}, {5, -120}, {10, -80}, {6, 130}, {12, 180}, {41, 120}, {19, 60}, {21, 120}}),
+        pose({{31, 180}, {33, 60}, {35, -60}, {37, 60}, {19, 180}, {12, -140}, {18, 80}}),
+        pose({{31, -200}, {33, -120}, {35, -30}, {37, 160}, {19, -150}, {21, 60}, {4, 40}, {5, 60}, {61, 60}}),
+        pose({{31, 220}, {33, 160}, {35, 80}, {37, 80}, {19, -220}, {21, 60}, {3, 150}, {4, -50}, {5, -160}, {6, 80}}),
+        pose({{31, -80}, {33, -60}, {37, 60}, {19, 100}, {21, 80}, {4, -160}, {8, -130}, {61, 80}, {63, 60}, {41, 80}}),
+        pose({{31, 250}, {33, 250}, {35, 250}, {19, -250}, {3, 450}, {4, -60}, {8, -40}, {5, -400}, {10, -300}})};
+    return poses;
+}
+
+namespace {
+
+// A sum of poses on its way.
+struct Blend {
+    FapMask mask;
+    std::array<double, fap_count> value{};
+
+    void add(const FapFrame& pose, double weight) {
+        if (weight == 0) return;
+        mask |= pose.mask;
+        for (std::size_t i = 0; i < fap_count; ++i) value[i] += weight * pose.value[i];
+    }
+};
+
+// The parameters of the frame that define a pose: of the mouth and the tongue for a viseme, any for an expression.
+FapFrame defined(const FapFrame& frame, bool mouth_only) {
+    FapFrame pose;
+    for (std::size_t i = 2; i < fap_count; ++i) {
+        const int group = faps[i].group;
+        if (!frame.mask[i] || (mouth_only && group != 2 && group != 6 && group != 8)) continue;
+        pose.mask.set(i);
+        pose.value[i] = frame.value[i];
+    }
+    return pose;
+}
+
+// What a decoder keeps from frame to frame.
+class Resolver {
+public:
+    explicit Resolver(FapPoses& poses) : poses_(poses) {}
+
+    FapFrame resolve(const FapFrame& frame) {
+        if (frame.mask[0]) select_viseme(frame);
+        if (frame.mask[1]) select_expression(frame);
+        const Blend blend = blended();
+        FapFrame result;
+        result.number = frame.number;
+        for (std::size_t i = 2; i < fap_count; ++i) {
+            const bool asked = blend.mask[i] && !frame.mask[i];
+            if (frame.mask[i]) sent_.mask.set(i), sent_.value[i] = frame.value[i];
+            const bool interpolated = frame.interpolated[static_cast<std::size_t>(faps[i].group - 1)];
+            const bool held = sent_.mask[i] && (frame.mask[i] || !interpolated);
+            result.mask[i] = asked || held;
+            if (result.mask[i])
+                result.value[i] = asked ? static_cast<std::int32_t>(std::lround(blend.value[i])) : sent_.value[i];
+        }
+        fill(result, [](const Fap& fap) { return fap.mirror; });
+        fill(result, [](const Fap& fap) { return fap.partner; });
+        return result;
+    }
+
+private:
+    void select_viseme(const FapFrame& frame) {
+        viseme_ = frame.viseme;
+        if (viseme_.define) poses_.visemes[viseme_.select1] = defined(frame, true);
+    }
+
+    void select_expression(const FapFrame& frame) {
+        expression_ = frame.expression;
+        if (expression_.define) poses_.expressions[expression_.select1] = defined(frame, false);
+    }
+
+    [[nodiscard]] Blend blended() const {
+        Blend blend;
+        blend.add(poses_.visemes[viseme_.select1], viseme_.blend / 63.0);
+        blend.add(poses_.visemes[viseme_.select2], 1 - viseme_.blend / 63.0);
+        blend.add(poses_.expressions[expression_.select1], expression_.intensity1 / 63.0);
+        blend.add(poses_.expressions[expression_.select2], expression_.intensity2 / 63.0);
+        return blend;
+    }
+
+    // From the parameter that `source` names, where that one is known and this one is not.
+    template <class Source>
+    static void fill(FapFrame& frame, const Source& source) {
+        const FapFrame known = frame;
+        for (std::size_t i = 2; i < fap_count; ++i) {
+            const int from = source(faps[i]);
+            if (known.mask[i] || from == 0 || !known.mask[fap_index(from)]) continue;
+            frame.mask.set(i);
+            frame.value[i] = known.value[fap_index(from)];
+        }
+    }
+
+    FapPoses& poses_;
+    Viseme viseme_;
+    Expression expression_;
+    FapFrame sent_;  // the last value of each parameter that was ever sent
+};
+
+}  // namespace
+
+FapStream resolve_faps(const FapStream& stream, FapPoses poses) {
+    FapStream resolved{stream.version, stream.name, stream.rate, {}};
+    resolved.frames.reserve(stream.frames.size());
+    Resolver resolver(poses);
+    for (const FapFrame& frame : stream.frames) resolved.frames.push_back(resolver.resolve(frame));
+    return resolved;
+}
+
+}  // namespace mien

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include "mien/algorithms/resolve_faps.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace mien {
+namespace {
+
+FapFrame frame(std::uint32_t number, std::initializer_list<std::pair<int, int>> values) {
+    FapFrame frame;
+    frame.number = number;
+    for (const auto& [fap, value] : values) {
+        frame.mask.set(fap_index(fap));
+        if (fap > 2) frame.value[fap_index(fap)] = value;
+    }
+    return frame;
+}
+
+FapFrame with_viseme(FapFrame frame, const Viseme& viseme) {
+    frame.mask.set(0);
+    frame.viseme = viseme;
+    return frame;
+}
+
+FapFrame with_expression(FapFrame frame, const Expression& expression) {
+    frame.mask.set(1);
+    frame.expression = expression;
+    return frame;
+}
+
+FapStream resolved(std::initializer_list<FapFrame> frames) {
+    FapStream stream;
+    stream.frames = frames;
+    return resolve_faps(stream);
+}
+
+int value(const FapFrame& frame, int fap) {
+    EXPECT_TRUE(frame.mask[fap_index(fap)]) << fap;
+    return frame.value[fap_index(fap)];
+}
+
+TEST(ResolveFaps, OneSideOfTheFaceServesForTheOther) {
+    const FapFrame out = resolved({frame(0, {{31, 50}, {23, -700}, {38, 9}})}).frames.at(0);
+    EXPECT_EQ(value(out, 32), 50);
+    EXPECT_EQ(value(out, 24), -700);  // both eyes look the same way
+    EXPECT_EQ(value(out, 37), 9);
+    EXPECT_EQ(out.mask.count(), 6U);
+}
+
+TEST(ResolveFaps, OneContourOfTheLipsServesForTheOtherAfterTheOtherSide) {
+    const FapFrame out = resolved({frame(0, {{53, 80}, {5, -200}, {52, -100}})}).frames.at(0);
+    for (const int fap : {6, 7, 53, 54}) EXPECT_EQ(value(out, fap), 80);
+    EXPECT_EQ(value(out, 5), -200);  // what is sent stays
+    EXPECT_EQ(value(out, 52), -100);
+    EXPECT_EQ(out.mask.count(), 6U);
+    // The other side of the same contour comes before the other contour.
+    const FapFrame lips = resolved({frame(0, {{6, 1}, {54, 2}})}).frames.at(0);
+    EXPECT_EQ(value(lips, 7), 1);
+    EXPECT_EQ(value(lips, 53), 2);
+}
+
+TEST(ResolveFaps, WhatIsNotSentAgainHoldsUnlessItIsToBeInterpolated) {
+    FapFrame interpolated = frame(2, {{31, 70}});
+    interpolated.interpolated.set(3);
+    const FapStream out = resolved({frame(0, {{31, 10}, {32, 20}}), frame(1, {{31, 30}}), interpolated, frame(3, {})});
+    EXPECT_EQ(value(out.frames[1], 32), 20);
+    EXPECT_EQ(value(out.frames[2], 32), 70);
+    EXPECT_EQ(value(out.frames[3], 32), 20);
+    EXPECT_EQ(value(out.frames[3], 31), 70);
+}
+
+TEST(ResolveFaps, AVisemeBlendsFromTheSecondToTheFirst) {
+    const FapPoses poses = standard_poses();
+    const auto jaw = [&](std::size_t viseme) { return poses.visemes[viseme].value[fap_index(3)]; };
+    for (const int blend : {0, 21, 42, 63}) {
+        const auto b = static_cast<std::uint8_t>(blend);
+        const FapFrame out = resolved({with_viseme({}, {10, 12, b, false})}).frames.at(0);
+        EXPECT_NEAR(value(out, 3), jaw(10) * blend / 63.0 + jaw(12) * (1 - blend / 63.0), 0.5);
+        EXPECT_FALSE(out.mask[0]);
+    }
+}
+
+TEST(ResolveFaps, TwoExpressionsAddUpAndAVisemeOnTopOfThem) {
+    const FapPoses poses = standard_poses();
+    const FapFrame out =
+        resolved({with_viseme(with_expression({}, {1, 63, 6, 21, false, false}), {10, 0, 63, false})}).frames.at(0);
+    const auto expected = [&](int fap) {
+        const std::size_t i = fap_index(fap);
+        return poses.expressions[1].value[i] + poses.expressions[6].value[i] / 3.0 + poses.visemes[10].value[i];
+    };
+    for (const int fap : {3, 5, 12, 19, 31, 41}) EXPECT_NEAR(value(out, fap), expected(fap), 0.5);
+}
+
+TEST(ResolveFaps, WhatIsSentWinsOverAViseme) {
+    const FapStream out = resolved({with_viseme(frame(0, {{3, 5}}), {10, 0, 63, false}), frame(1, {})});
+    EXPECT_EQ(value(out.frames[0], 3), 5);
+    EXPECT_EQ(value(out.frames[0], 5), standard_poses().visemes[10].value[fap_index(5)]);
+    // The viseme holds; in a frame that does not send the jaw it has it.
+    EXPECT_EQ(value(out.frames[1], 3), standard_poses().visemes[10].value[fap_index(3)]);
+}
+
+TEST(ResolveFaps, AStreamMayDefineItsOwnVisemesAndExpressions) {
+    const FapStream out = resolved({with_viseme(frame(0, {{3, 333}, {31, 44}}), {4, 0, 63, true}),
+                                    with_viseme(frame(1, {}), {4, 0, 63, false}),
+                                    with_expression(frame(2, {{33, 90}}), {3, 63, 0, 0, false, true}),
+                                    with_expression(frame(3, {}), {3, 21, 0, 0, false, false})});
+    EXPECT_EQ(value(out.frames[0], 3), 333);
+    EXPECT_EQ(value(out.frames[1], 3), 333);
+    EXPECT_EQ(value(out.frames[1], 31), 44);  // held, for a brow is no part of a viseme
+    EXPECT_EQ(value(out.frames[3], 33), 30);
+}
+
+TEST(ResolveFaps, PosesCanBeReplaced) {
+    FapPoses poses = standard_poses();
+    poses.visemes[1] = frame(0, {{3, 999}});
+    FapStream stream;
+    stream.frames = {with_viseme({}, {1, 0, 63, false})};
+    const FapFrame out = resolve_faps(stream, poses).frames.at(0);
+    EXPECT_EQ(value(out, 3), 999);
+    EXPECT_EQ(out.mask.count(), 1U);
+}
+
+TEST(ResolveFaps, AStreamThatSaysAllIsUnchanged) {
+    FapStream stream;
+    stream.rate = 30, stream.name = "all";
+    FapFrame all = frame(4, {});
+    for (std::size_t i = 2; i < fap_count; ++i) all.mask.set(i), all.value[i] = static_cast<int>(i * i) - 900;
+    stream.frames = {all};
+    const FapStream out = resolve_faps(stream);
+    EXPECT_EQ(out.frames, stream.frames);
+    EXPECT_EQ(out.rate, 30);
+    EXPECT_EQ(out.name, "all");
+    EXPECT_EQ(resolve_faps(out).frames, out.frames);
+}
+
+// A pose is symmetric, its lip contours agree, and it stays within the limits of the table.
+TEST(ResolveFaps, TheStandardPosesAreWhole) {
+    const FapPoses poses = standard_poses();
+    const auto check = [](const FapFrame& pose, bool empty) {
+        EXPECT_EQ(pose.mask.none(), empty);
+        for (int n = 3; n <= 68; ++n) {
+            const Fap& fap = fap_info(n);
+            const int here = pose.value[fap_index(n)];
+            EXPECT_EQ(pose.value[fap_index(fap.mirror)], here) << fap.name;
+            if (fap.partner != 0) {
+                EXPECT_EQ(pose.value[fap_index(fap.partner)], here) << fap.name;
+            }
+            EXPECT_GE(here, fap.intra.low * fap.quant_step) << fap.name;
+            EXPECT_LE(here, fap.intra.high * fap.quant_step) << fap.name;
+        }
+    };
+    for (std::size_t v = 0; v < poses.visemes.size(); ++v) check(poses.visemes[v], v == 0);
+    for (std::size_t e = 0; e < poses.expressions.size(); ++e) check(poses.expressions[e], e == 0);
+    // As the standard describes them: joy draws the corners up, anger the brows down, surprise opens lids and jaw.
+    EXPECT_GT(poses.expressions[1].value[fap_index(59)], 0);
+    EXPECT_LT(poses.expressions[3].value[fap_index(31)], 0);
+    EXPECT_LT(poses.expressions[6].value[fap_index(19)], 0);
+    EXPECT_GT(poses.expressions[6].value[fap_index(3)], 0);
+}
+
+}  // namespace
+}  // namespace mien
