@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -114,7 +115,7 @@ TEST(Fap, TheFeaturePointsThatMoveAreThoseOfTheStandard) {
     for (const Row& row : rows) {
         std::string list;
         for (int n = 1; n <= 68; ++n)
-            if (fap_info(n).point == row.at("id")) list += (list.empty() ? "" : " ") + std::to_string(n);
+            if (fap_info(n).point == row.at("id")) list += fmt::format("{}{}", list.empty() ? "" : " ", n);
         if (row.at("id") == "6.4") list = "47";  // the other end of what 47 rolls
         EXPECT_EQ(row.at("faps"), list) << row.at("id");
         moved += list.empty() ? 0U : 1U;
