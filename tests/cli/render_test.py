@@ -14,7 +14,7 @@ import time
 import unittest
 import zlib
 
-from program import HEAD, MAP, MIEN, POINTS, TAKE, run, some_rows
+from program import HEAD, MAP, MIEN, POINTS, SAMPLES, TAKE, run, some_rows
 
 DRAFT = ("--quality", "draft", "--software")
 
@@ -50,6 +50,22 @@ def undo(kind, row, above):
         guess = left + above[x] - corner
         nearest = min((left, above[x], corner), key=lambda value: abs(guess - value))
         row[x] = (row[x] + (0, left, above[x], (left + above[x]) // 2, nearest)[kind]) & 255
+
+
+THUMBNAILS = pathlib.Path(__file__).with_name("thumbnails")
+
+
+def largest_block_difference(one, other, block=8):
+    """Of the mean colours of blocks of pixels, which edges that fall otherwise do not change much."""
+    width, height, a = pixels(one)
+    assert pixels(other)[:2] == (width, height), "pictures of one size"
+    b, worst = pixels(other)[2], 0
+    for top in range(0, height - block + 1, block):
+        for left in range(0, width - block + 1, block):
+            for channel in range(3):
+                cells = [(y, 3 * x + channel) for y in range(top, top + block) for x in range(left, left + block)]
+                worst = max(worst, abs(sum(a[y][x] - b[y][x] for y, x in cells)) / len(cells))
+    return worst
 
 
 class Render(unittest.TestCase):
@@ -101,6 +117,16 @@ class Render(unittest.TestCase):
         joints = pixels(self.drawn("joints.png", self.glb, "--size", "120x160", "--time", "4.4"))[2]
         differing = sum(abs(a - b) > 40 for x, y in zip(exact, joints) for a, b in zip(x, y))
         self.assertLess(differing, 0.03 * 3 * 120 * 160)
+
+    def test_sample_heads_look_as_they_did(self):
+        """Pictures stored as `mien render` drew them; other drivers may differ by a few of 255 steps."""
+        for name, arguments in (("head-front", (HEAD, "--passes", "16")),
+                                ("head-open", (self.glb, "--time", "4.4", "--close-up", "mouth", "--passes", "16")),
+                                ("man-three-quarter", (SAMPLES / "man.glb", "--view", "three-quarter", "--passes", "16")),
+                                ("cartoon-side", (SAMPLES / "cartoon.glb", "--view", "side", "--quality", "draft"))):
+            path = self.folder / f"{name}.png"
+            self.made("render", *arguments, "--software", "--size", "96x120", "-f", "-o", path)
+            self.assertLess(largest_block_difference(path, THUMBNAILS / f"{name}.png"), 12, name)
 
     def test_a_folder_holds_a_frame_per_step(self):
         folder = self.drawn("frames", self.glb, "--size", "32x32", "--fps", "1")
