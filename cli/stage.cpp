@@ -35,7 +35,7 @@ struct CloseUp {
 };
 
 CloseUp close_up(const std::string& name) {
-    if (name == "eyes") return {{"3.7", "3.11", "3.8", "3.12"}, 0.16};
+    if (name == "eyes") return {{"3.7", "3.11", "3.8", "3.12", "3.1", "3.3", "3.2", "3.4"}, 0.16};
     if (name == "mouth") return {{"8.3", "8.4", "8.1", "8.2"}, 0.14};
     return {{name}, 0.14};
 }
