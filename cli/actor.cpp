@@ -48,10 +48,6 @@ Movement movement(const Actor& actor) {
 // How far apart pictures may be, and of how many vertices, when motion is looked at to choose from it.
 constexpr std::size_t most_times = 240, most_vertices = 500;
 
-}  // namespace
-
-namespace {
-
 bool is_take(const fs::path& file) {
     const std::string extension = file.extension().string();
     return extension == ".trc" || extension == ".csv";

@@ -99,6 +99,24 @@ void add_cap(Surface& hair, const Character& character, const Shell& scalp) {
     }
 }
 
+// Faces over the rings of `round` vertices from `first` on, `steps` - 1 of them, and over the two poles that follow
+// them. `uv`: the texture coordinates of vertex k of ring i, the poles being rings 0 and `steps`.
+template <class UvOf>
+void close_rings(Surface& hair, std::uint32_t first, std::uint32_t round, std::uint32_t steps, const UvOf& uv) {
+    const std::uint32_t last = first + (steps - 2) * round, pole = last + round;
+    for (std::uint32_t k = 0; k < round; ++k) {
+        const std::uint32_t n = (k + 1) % round;
+        hair.faces.push_back({{pole, first + n, first + k, no_vertex}, {uv(k, 0), uv(k + 1, 1), uv(k, 1), {}}});
+        for (std::uint32_t i = 0; i + 2 < steps; ++i) {
+            const std::uint32_t a = first + i * round;
+            hair.faces.push_back({{a + k, a + n, a + round + n, a + round + k},
+                                  {uv(k, i + 1), uv(k + 1, i + 1), uv(k + 1, i + 2), uv(k, i + 2)}});
+        }
+        hair.faces.push_back(
+            {{last + k, last + n, pole + 1, no_vertex}, {uv(k, steps - 1), uv(k + 1, steps - 1), uv(k, steps), {}}});
+    }
+}
+
 // A closed tube round a curve: flat, widest a third of the way along, pointed at its end, round at its start.
 void add_lock(Surface& hair, const Character& character, const Shell& scalp, const Lock& lock, double side) {
     constexpr std::uint32_t round = 8, steps = 16;
@@ -122,21 +140,11 @@ void add_lock(Surface& hair, const Character& character, const Shell& scalp, con
                                      (lock.thickness * wide * std::sin(a)) * up);
         }
     }
-    const auto root = static_cast<std::uint32_t>(hair.positions.size());
     hair.positions.push_back(at(0));
     hair.positions.push_back(at(1));
-    const auto uv = [&](std::uint32_t k, std::uint32_t i) { return Uv{u0 + .1 * k / round, .05 + .9 * i / steps}; };
-    for (std::uint32_t k = 0; k < round; ++k) {
-        const std::uint32_t n = (k + 1) % round, last = first + (steps - 2) * round;
-        hair.faces.push_back({{root, first + n, first + k, no_vertex}, {uv(k, 0), uv(k + 1, 1), uv(k, 1), {}}});
-        for (std::uint32_t i = 0; i + 2 < steps; ++i) {
-            const std::uint32_t a = first + i * round;
-            hair.faces.push_back({{a + k, a + n, a + round + n, a + round + k},
-                                  {uv(k, i + 1), uv(k + 1, i + 1), uv(k + 1, i + 2), uv(k, i + 2)}});
-        }
-        hair.faces.push_back(
-            {{last + k, last + n, root + 1, no_vertex}, {uv(k, steps - 1), uv(k + 1, steps - 1), uv(k, steps), {}}});
-    }
+    close_rings(hair, first, round, steps, [&](std::uint32_t k, std::uint32_t i) {
+        return Uv{u0 + .1 * k / round, .05 + .9 * i / steps};
+    });
 }
 
 // A ball flattened towards the head, its strands wound round it.
