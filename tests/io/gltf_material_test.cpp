@@ -11,6 +11,7 @@
 #include "io/gltf_text.hpp"
 #include "io/hostile.hpp"
 #include "io/picture_text.hpp"
+#include "io/scene_text.hpp"
 
 #include "mien/io/scene.hpp"
 
@@ -22,15 +23,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Scene scene_in(const GltfDocument& document) {
-    return parse_scene(format_glb(document), no_file);
-}
-
-std::string refusal(const GltfDocument& document) {
-    return hostile::refusal([](std::span<const std::byte> bytes) { return parse_scene(bytes, no_file); },
-                            glb_text(document));
-}
 
 std::size_t add_picture(GltfDocument& document, const std::string& bytes) {
     document.json["images"].push_back(

@@ -18,6 +18,7 @@
 #include "io/gltf_player.hpp"
 #include "io/gltf_text.hpp"
 #include "io/hostile.hpp"
+#include "io/scene_text.hpp"
 #include "shapes.hpp"
 
 #include "mien/io/obj.hpp"
@@ -32,17 +33,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
-
-Scene scene_in(std::span<const std::byte> bytes) {
-    return parse_scene(bytes, no_file);
-}
-Scene scene_in(const GltfDocument& document) {
-    return scene_in(format_glb(document));
-}
-
-std::string refusal(const GltfDocument& document) {
-    return hostile::refusal([](std::span<const std::byte> bytes) { return scene_in(bytes); }, glb_text(document));
-}
 
 // Where a surface is, by what include/mien/scene.hpp says.
 std::vector<Vec3> positions(const Scene& scene, const Surface& surface, const ScenePose& pose) {
