@@ -57,6 +57,7 @@ Box around(const CloseUp& wanted, const std::vector<NamedPlace>& places, double 
 // The box round the points; of the whole head where there are none.
 Box box_of(const std::vector<NamedPlace>& places, const Box& whole) {
     std::vector<Vec3> points;
+    points.reserve(places.size());
     for (const NamedPlace& place : places) points.push_back(place.place);
     return points.empty() ? whole : bounding_box(points);
 }

@@ -24,7 +24,16 @@ def sources(build):
     return {name: entries[name] for name in sorted(entries) if not name.startswith("build/")}
 
 
-def state_of(entry):
+def checks_of(name):
+    """The text of every .clang-tidy that holds for a source."""
+    folders = [""]
+    for part in os.path.dirname(name).split("/"):
+        folders.append(os.path.join(folders[-1], part))
+    files = [os.path.join(folder, ".clang-tidy") for folder in dict.fromkeys(folders)]
+    return b"".join(open(file, "rb").read() for file in files if os.path.exists(file))
+
+
+def state_of(name, entry):
     """A name for all that clang-tidy sees of a source."""
     words = shlex.split(entry["command"])
     out = words.index("-o")
@@ -32,13 +41,12 @@ def state_of(entry):
     if os.path.basename(words[0]) == "ccache":
         words = words[1:]
     text = subprocess.run(words + ["-E", "-C"], cwd=entry["directory"], stdout=subprocess.PIPE, check=True).stdout
-    with open(".clang-tidy", "rb") as checks:
-        return hashlib.sha256(text + checks.read()).hexdigest()
+    return hashlib.sha256(text + checks_of(name)).hexdigest()
 
 
 def look(build, name, entry):
     """What clang-tidy says of a source; nothing where it is clean, None where it was clean before."""
-    mark = os.path.join(build, "tidy", state_of(entry))
+    mark = os.path.join(build, "tidy", state_of(name, entry))
     if os.path.exists(mark):
         return None
     done = subprocess.run([TIDY, "-p", build, "--quiet", name], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -198,7 +198,8 @@ Surface make_hair(const Character& character, const Skin& skin) {
 std::vector<double> hair_cover(const Character& character, const Skin& skin, const Surface& hair) {
     std::vector<double> cover(skin.mesh.surface.positions.size(), 0);
     Shell cap;  // from the third row on
-    cap.places.assign(hair.positions.begin() + 2 * columns, hair.positions.begin() + cap_rows * columns);
+    const auto row = [&](int i) { return hair.positions.begin() + std::ptrdiff_t{i} * columns; };
+    cap.places.assign(row(2), row(cap_rows));
     for (std::size_t v = 0; v < cover.size(); ++v) {
         const Vec3 p = skin.mesh.surface.positions[v];
         if (skin.neutral[v].y < -75 || (skin.neutral[v].z > 60 && skin.neutral[v].y < 40)) continue;

@@ -60,8 +60,9 @@ void add_brow_hair(Surface& brows, const BrowLook& look, const Shell& shell, con
     const double upright = std::clamp(1.25 - 2.1 * t, 0.0, 1.0) - .55 * across * smooth_step(.1, .5, t);
     const Vec3 direction = unit(along + (upright + .25 * (scatter(i, 4) - .5)) * Vec3{0, 1, 0});
     const double long_as = look.length * (.75 + .4 * scatter(i, 5)) * (1 - .35 * t);
-    std::vector<Vec3> line;
     constexpr double lifts[]{-.1, .55, .35};
+    std::vector<Vec3> line;
+    line.reserve(std::size(lifts));
     for (int k = 0; k < 3; ++k)
         line.push_back(raised_to(shell, place + (.5 * k * long_as) * direction, lifts[k] + .25 * scatter(i, 6)));
     const Vec3 normal = shell.normals[nearest(shell, place)];

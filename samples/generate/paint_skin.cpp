@@ -135,7 +135,7 @@ Tint tint_of(const Character& character, const Ground& g) {
                g.hair * (.55 + .45 * std::min(1.0, g.hair + strands)) * .95);
     tint = mix(tint, lip_tint(character, g), smooth_step(.3, .8, g.lip + .05 * noise(g.place / .9)));
     const bool nostril = g.place.z > 90 && g.place.y > -46;
-    const Tint flesh = nostril ? Tint{84, 36, 32} : mix({124, 54, 50}, {176, 88, 82}, smooth_step(46, 90, g.place.z));
+    const Tint flesh = nostril ? Tint{84, 36, 32} : mix({168, 82, 78}, {186, 96, 90}, smooth_step(46, 90, g.place.z));
     tint = mix(tint, flesh, smooth_step(.2, nostril ? 1 : .7, g.inner));
     const Tint margin = mix(times(character.skin.skin, {.97, .84, .8}), times(character.skin.skin, {1, .78, .74}),
                             smooth_step(78, 75, g.place.z));

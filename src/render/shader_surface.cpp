@@ -229,6 +229,10 @@ vec3 developed(vec3 c) { return to_srgb(film(c)); }
 )";
 
 const char* const full_light = R"(
+// What is in shadow is lit by the same matter round it, which took its colour once more: without that, an open mouth is
+// a black hole.
+const float bounced = 0.3;
+
 // How much of the light arrives, per channel: all, none, or what came through.
 vec3 arriving(Surface s, vec3 place) {
     vec4 at = shadow * vec4(place + s.n * max(1.5 * shadow_size.x, 0.12 * s.path), 1.0);
@@ -246,9 +250,9 @@ vec3 arriving(Surface s, vec3 place) {
     return 0.25 * sum;
 }
 vec3 lit(Surface s, vec3 v, vec3 at) {
-    vec3 there = arriving(s, at);
+    vec3 arrived = arriving(s, at), there = arrived + (1.0 - arrived) * bounced * s.base;
     vec3 diffuse = light[0] * wrapped(dot(s.n, sample_at), 0.45 * s.scatter) * there;
-    vec3 reflected = there.b * (dome ? 4.0 * room_reflection(s, v) * light[1] * max(dot(s.n, sample_at), 0.0)
+    vec3 reflected = arrived.b * (dome ? 4.0 * room_reflection(s, v) * light[1] * max(dot(s.n, sample_at), 0.0)
                                      : light[0] * reflection(0, s, v));
     return s.diffuse * diffuse * s.alpha + min(reflected, 24.0) + s.glow;
 }
