@@ -104,6 +104,22 @@ void pose(Renderer& renderer, ModelId model, const Actor& actor, double time) {
         renderer.pose(model, pose_at(actor.scene, time));
 }
 
+Box reach(Renderer& renderer, ModelId model, const Actor& actor) {
+    constexpr int times = 24;
+    const Box rest = renderer.rest_box(model);
+    if (!(actor.seconds > 0)) return rest;
+    std::vector<Vec3f> places(renderer.vertex_count(model));
+    std::vector<Vec3> corners{rest.low, rest.high}, all(places.size());
+    for (int i = 0; i < times; ++i) {
+        pose(renderer, model, actor, actor.seconds * i / (times - 1));
+        renderer.read_positions(model, places);
+        std::transform(places.begin(), places.end(), all.begin(), [](const Vec3f& place) { return to_double(place); });
+        const Box box = bounding_box(all);
+        corners.insert(corners.end(), {box.low, box.high});
+    }
+    return bounding_box(corners);
+}
+
 std::vector<NamedPlace> points_at(const Actor& actor, double time) {
     std::vector<NamedPlace> places;
     if (actor.rig) {

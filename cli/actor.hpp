@@ -45,6 +45,9 @@ ModelId upload(Renderer& renderer, const Actor& actor);
 /// Poses the actor's model as it is at a time.
 void pose(Renderer& renderer, ModelId model, const Actor& actor, double time);
 
+/// The box that it stays in, as far as 24 times of its motion show.
+Box reach(Renderer& renderer, ModelId model, const Actor& actor);
+
 /// Its feature points at a time: the rig's points, or the joints of a scene that are named like feature points.
 std::vector<NamedPlace> points_at(const Actor& actor, double time);
 

@@ -57,6 +57,7 @@ Size size_for(const Render& flags, Form form) {
 LookFlags look_for(const Render& flags, Form form) {
     LookFlags look = flags.look;
     if (look.passes == 0) look.passes = form == Form::still ? 64 : form == Form::sheet ? 32 : 12;
+    look.time = form == Form::still ? flags.time : 0;
     return look;
 }
 

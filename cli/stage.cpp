@@ -107,12 +107,13 @@ void add_look_flags(CLI::App& verb, LookFlags& flags) {
 Stage::Stage(const LookFlags& look, const PaintFlags& paint, Size size)
     : flags_(look), paint_(paint), size_(size), renderer_(RendererOptions{look.software}) {}
 
-Camera Stage::camera(const Actor& actor, ModelId model) const {
-    const Box box = renderer_.rest_box(model);
+Camera Stage::camera(const Actor& actor, ModelId model) {
+    const Box rest = renderer_.rest_box(model), box = reach(renderer_, model, actor);
     if (flags_.close_up == "points")
-        return frame(box_of(points_at(actor, 0), box), flags_.view, size_.width, size_.height, 0.12);
+        return frame(box_of(points_at(actor, flags_.time), box), flags_.view, size_.width, size_.height, 0.12);
     if (flags_.close_up.empty()) return frame(box, flags_.view, size_.width, size_.height);
-    const Box near = around(close_up(flags_.close_up), points_at(actor, 0), box.high.y - box.low.y, actor.name);
+    const Box near =
+        around(close_up(flags_.close_up), points_at(actor, flags_.time), rest.high.y - rest.low.y, actor.name);
     return frame(near, flags_.view, size_.width, size_.height, 0);
 }
 

@@ -36,6 +36,7 @@ struct LookFlags {
     bool wire = false;
     bool points = false;  ///< feature points with their ids
     bool software = false;
+    double time = 0;  ///< at which a close-up looks for its feature points
 };
 void add_look_flags(CLI::App& verb, LookFlags& flags);
 
@@ -73,7 +74,7 @@ public:
 private:
     void paint_weights(std::size_t actor);
     void paint_error(std::size_t actor);
-    [[nodiscard]] Camera camera(const Actor& actor, ModelId model) const;
+    Camera camera(const Actor& actor, ModelId model);
 
     LookFlags flags_;
     PaintFlags paint_;
