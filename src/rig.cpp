@@ -4,10 +4,46 @@
 #include "mien/rig.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 namespace mien {
+
+namespace {
+
+double mean_radius(const Rig& rig, const Eyeball& eyeball) {
+    double sum = 0;
+    for (const std::uint32_t v : eyeball.vertices) sum += distance(to_double(rig.rest[v]), eyeball.centre);
+    return sum / static_cast<double>(eyeball.vertices.size());
+}
+
+// The point, where it is in front of this eyeball at the distance of a lid.
+std::optional<std::size_t> lid_of(const Rig& rig, const Eyeball& eyeball, double radius, std::string_view id) {
+    const std::optional<std::size_t> point = find_point(rig.points, id);
+    if (!point) return std::nullopt;
+    const double off = distance(rig.points[*point].position, eyeball.centre);
+    return off > 0.9 * radius && off < 2 * radius ? point : std::nullopt;
+}
+
+std::vector<LidsOverEye> lids_over_eyes(const Rig& rig) {
+    constexpr std::array<std::array<std::string_view, 2>, 2> sides{{{"3.1", "3.3"}, {"3.2", "3.4"}}};
+    std::vector<LidsOverEye> lids;
+    for (const Eyeball& eyeball : rig.eyeballs) {
+        if (eyeball.vertices.empty()) continue;
+        const double radius = mean_radius(rig, eyeball);
+        for (const auto& [upper_id, lower_id] : sides) {
+            const auto upper = lid_of(rig, eyeball, radius, upper_id), lower = lid_of(rig, eyeball, radius, lower_id);
+            if (upper || lower)
+                lids.push_back({upper.value_or(lower.value_or(0)), lower.value_or(upper.value_or(0)), eyeball.centre});
+        }
+    }
+    return lids;
+}
+
+}  // namespace
 
 TakeBinding bind_take(const Rig& rig, const Take& take) {
     TakeBinding binding;
@@ -18,8 +54,27 @@ TakeBinding bind_take(const Rig& rig, const Take& take) {
     }
     std::copy_if(take.points.begin(), take.points.end(), std::back_inserter(binding.unused),
                  [&](const std::string& id) { return !find_point(rig.points, id); });
+    binding.lids = lids_over_eyes(rig);
     return binding;
 }
+
+namespace {
+
+// Out of the surface that the lids slide on.
+void slide(const LidsOverEye& lids, std::span<const FeaturePoint> points, std::size_t lid,
+           std::span<Vec3f> displacements) noexcept {
+    const Vec3 up = points[lids.upper].position - lids.centre, low = points[lids.lower].position - lids.centre;
+    const Vec3 at = points[lid].position + to_double(displacements[lid]) - lids.centre;
+    const double off = length(at);
+    if (!(off > 0)) return;
+    const Vec3 from = low / length(low), across = up / length(up) - from;
+    const double width = dot(across, across);
+    const double share = width > 0 ? std::clamp(dot(at / off - from, across) / width, 0.0, 1.0) : 0;
+    const double least = (1 - share) * length(low) + share * length(up);
+    if (off < least) displacements[lid] += to_float((least / off - 1) * at);
+}
+
+}  // namespace
 
 void displacements(const Rig& rig, const TakeBinding& binding, std::span<const Vec3> row,
                    std::span<Vec3f> displacements) noexcept {
@@ -28,6 +83,10 @@ void displacements(const Rig& rig, const TakeBinding& binding, std::span<const V
         const std::int32_t column = binding.columns[i];
         const bool seen = column >= 0 && is_finite(row[static_cast<std::size_t>(column)]);
         displacements[i] = seen ? to_float(row[static_cast<std::size_t>(column)] - rig.points[i].position) : Vec3f{};
+    }
+    for (const LidsOverEye& lids : binding.lids) {
+        slide(lids, rig.points, lids.upper, displacements);
+        if (lids.lower != lids.upper) slide(lids, rig.points, lids.lower, displacements);
     }
 }
 

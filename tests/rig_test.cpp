@@ -44,6 +44,55 @@ TEST(Displacements, hold_a_lost_point_and_an_undriven_one_at_neutral) {
     EXPECT_EQ(moved, (std::vector<Vec3f>{{0, 0, 0}, {0, 0, 0}}));
 }
 
+// An eyeball of radius 1 round the origin under two lids of different thickness.
+Rig with_lids() {
+    Rig rig;
+    rig.points = {{"3.1", 0, 1.2 * Vec3{0, 0.6, 0.8}, {}, 0}, {"3.3", 1, 1.1 * Vec3{0, -0.6, 0.8}, {}, 0}};
+    rig.rest = {{}, {}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}};
+    rig.row_starts = {0, 0, 0, 0, 0, 0};
+    rig.eyeballs = {{"eye", {2, 3, 4}, {0, 0, 0}, {}}};
+    return rig;
+}
+
+// The rig's points when the take's are at these places.
+std::vector<Vec3> places(const Rig& rig, const Vec3& upper, const Vec3& lower) {
+    const Take take{{"3.1", "3.3"}, {0}, {upper, lower}, {}, "", false};
+    std::vector<Vec3f> moved(2);
+    displacements(rig, bind_take(rig, take), row(take, 0), moved);
+    return {rig.points[0].position + to_double(moved[0]), rig.points[1].position + to_double(moved[1])};
+}
+
+TEST(Lids, slide_over_the_eyeball_where_the_straight_way_leads_through_it) {
+    const Rig rig = with_lids();
+    const Vec3 up = rig.points[0].position, low = rig.points[1].position;
+    for (const double closed : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+        const Vec3 lid = places(rig, (1 - closed) * up + closed * low, low)[0];
+        EXPECT_GE(length(lid), 1.1 - 1e-6) << closed;
+        EXPECT_LE(length(lid), 1.2 + 1e-6) << closed;
+    }
+}
+
+TEST(Lids, that_meet_on_the_take_meet_over_the_eyeball) {
+    const Rig rig = with_lids();
+    const std::vector<Vec3> met = places(rig, {0, -0.2, 0.6}, {0, -0.2, 0.6});
+    EXPECT_LT(distance(met[0], met[1]), 1e-6);
+    EXPECT_GT(length(met[0]), 1.1);
+}
+
+TEST(Lids, rest_and_open_wide_as_told) {
+    const Rig rig = with_lids();
+    const Vec3 up = rig.points[0].position, low = rig.points[1].position;
+    EXPECT_EQ(places(rig, up, low), (std::vector<Vec3>{up, low}));
+    EXPECT_LT(distance(places(rig, {0, 1, 1}, low)[0], {0, 1, 1}), 1e-6);
+}
+
+TEST(Lids, go_as_told_where_there_is_no_eyeball_behind_them) {
+    Rig rig = with_lids();
+    rig.eyeballs[0].centre = {0, 0, -5};
+    rig.rest = {{}, {}, {1, 0, -5}, {-1, 0, -5}, {0, 0, -4}};
+    EXPECT_LT(length(places(rig, {0, 0, 0.5}, rig.points[1].position)[0] - Vec3{0, 0, 0.5}), 1e-6);
+}
+
 TEST(JointPoses, move_free_points_as_told_and_constrained_ones_as_their_vertex) {
     const Rig rig = two_points();
     std::vector<Pose> poses(joint_count(rig), Pose{{}, {9, 9, 9}});

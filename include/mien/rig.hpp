@@ -67,16 +67,27 @@ struct Skin {
     double max_error = 0;               ///< measured with, and the largest such distance, in the mesh's unit
 };
 
+/// The lid points of one eye, which slide over its eyeball: see `displacements`.
+struct LidsOverEye {
+    std::size_t upper = 0, lower = 0;  ///< rig points; the same one where the face has only one of them
+    Vec3 centre;                       ///< of the eyeball
+};
+
 /// Where the columns of a take land on a rig's points.
 struct TakeBinding {
     std::vector<std::int32_t> columns;  ///< one per rig point: its column in the take, or -1: it keeps still
     std::vector<std::string> missing;   ///< rig points that the take does not drive
     std::vector<std::string> unused;    ///< take columns that the rig does not have
+    std::vector<LidsOverEye> lids;      ///< of eyes whose eyeball the rig knows
 };
 TakeBinding bind_take(const Rig& rig, const Take& take);
 
 /// Displacements of the rig's points in one row of a take that was retargeted to this face. A lost sample keeps its
 /// point at neutral for that row. `displacements`: one per rig point, filled.
+///
+/// Lids slide: a way along a straight line from open to closed would lead through the eyeball. A lid point that would
+/// come nearer to the eye's centre than the lids are at rest is put back outwards; between the upper and the lower
+/// lid's direction from the centre that distance passes from the one's to the other's, so that lids that meet still do.
 void displacements(const Rig& rig, const TakeBinding& binding, std::span<const Vec3> row,
                    std::span<Vec3f> displacements) noexcept;
 
