@@ -43,6 +43,19 @@ std::vector<LidsOverEye> lids_over_eyes(const Rig& rig) {
     return lids;
 }
 
+std::vector<LipsThatMeet> lips_that_meet(const Rig& rig) {
+    const auto above = find_point(rig.points, "8.1"), below = find_point(rig.points, "8.2");
+    if (!above || !below) return {};
+    const Vec3 way = rig.points[*above].position - rig.points[*below].position;
+    std::vector<LipsThatMeet> lips;
+    constexpr std::array<std::array<std::string_view, 2>, 3> pairs{{{"2.2", "2.3"}, {"2.6", "2.8"}, {"2.7", "2.9"}}};
+    for (const auto& [upper_id, lower_id] : pairs) {
+        const auto upper = find_point(rig.points, upper_id), lower = find_point(rig.points, lower_id);
+        if (upper && lower && length(way) > 0) lips.push_back({*upper, *lower, way / length(way)});
+    }
+    return lips;
+}
+
 }  // namespace
 
 TakeBinding bind_take(const Rig& rig, const Take& take) {
@@ -55,6 +68,7 @@ TakeBinding bind_take(const Rig& rig, const Take& take) {
     std::copy_if(take.points.begin(), take.points.end(), std::back_inserter(binding.unused),
                  [&](const std::string& id) { return !find_point(rig.points, id); });
     binding.lids = lids_over_eyes(rig);
+    binding.lips = lips_that_meet(rig);
     return binding;
 }
 
@@ -74,6 +88,15 @@ void slide(const LidsOverEye& lids, std::span<const FeaturePoint> points, std::s
     if (off < least) displacements[lid] += to_float((least / off - 1) * at);
 }
 
+void press(const LipsThatMeet& lips, std::span<const FeaturePoint> points, std::span<Vec3f> displacements) noexcept {
+    const double at_rest = dot(points[lips.upper].position - points[lips.lower].position, lips.up);
+    const double opened = dot(to_double(displacements[lips.upper]) - to_double(displacements[lips.lower]), lips.up);
+    const double crossed = std::min(at_rest, 0.0) - (at_rest + opened);
+    if (!(crossed > 0)) return;
+    displacements[lips.upper] += to_float(crossed / 2 * lips.up);
+    displacements[lips.lower] -= to_float(crossed / 2 * lips.up);
+}
+
 }  // namespace
 
 void displacements(const Rig& rig, const TakeBinding& binding, std::span<const Vec3> row,
@@ -88,6 +111,7 @@ void displacements(const Rig& rig, const TakeBinding& binding, std::span<const V
         slide(lids, rig.points, lids.upper, displacements);
         if (lids.lower != lids.upper) slide(lids, rig.points, lids.lower, displacements);
     }
+    for (const LipsThatMeet& lips : binding.lips) press(lips, rig.points, displacements);
 }
 
 Quaternion eyeball_turn(const Rig& rig, const Eyeball& eyeball, std::span<const Vec3f> displacements) noexcept {

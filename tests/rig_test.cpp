@@ -93,6 +93,41 @@ TEST(Lids, go_as_told_where_there_is_no_eyeball_behind_them) {
     EXPECT_LT(length(places(rig, {0, 0, 0.5}, rig.points[1].position)[0] - Vec3{0, 0, 0.5}), 1e-6);
 }
 
+Rig with_lips() {
+    Rig rig;
+    rig.points = {{"8.1", 0, {0, 1, 0}, {}, 0},
+                  {"2.2", 1, {0, 0.1, 0}, {}, 0},
+                  {"2.3", 2, {}, {}, 0},
+                  {"8.2", 3, {0, -1, 0}, {}, 0}};
+    rig.rest.resize(4);
+    rig.row_starts = {0, 0, 0, 0, 0};
+    return rig;
+}
+
+// The two inner lip points when the take's are at these heights.
+std::vector<double> inner_lips(double upper, double lower) {
+    const Rig rig = with_lips();
+    const Take take{{"2.2", "2.3"}, {0}, {{0.2, upper, 0}, {0, lower, 0}}, {}, "", false};
+    std::vector<Vec3f> moved(4);
+    displacements(rig, bind_take(rig, take), row(take, 0), moved);
+    EXPECT_NEAR(moved[1].x, 0.2, 1e-6);
+    EXPECT_EQ(moved[0], Vec3f{});
+    return {rig.points[1].position.y + moved[1].y, rig.points[2].position.y + moved[2].y};
+}
+
+TEST(Lips, that_would_cross_meet_halfway) {
+    const std::vector<double> lips = inner_lips(-0.2, 0.4);
+    EXPECT_NEAR(lips[0], 0.1, 1e-6);
+    EXPECT_NEAR(lips[1], 0.1, 1e-6);
+}
+
+TEST(Lips, that_open_or_just_meet_go_as_told) {
+    for (const auto& [upper, lower] : {std::pair{0.5, -0.7}, std::pair{0.1, 0.0}, std::pair{0.3, 0.3}}) {
+        EXPECT_NEAR(inner_lips(upper, lower)[0], upper, 1e-6);
+        EXPECT_NEAR(inner_lips(upper, lower)[1], lower, 1e-6);
+    }
+}
+
 TEST(JointPoses, move_free_points_as_told_and_constrained_ones_as_their_vertex) {
     const Rig rig = two_points();
     std::vector<Pose> poses(joint_count(rig), Pose{{}, {9, 9, 9}});

@@ -73,12 +73,19 @@ struct LidsOverEye {
     Vec3 centre;                       ///< of the eyeball
 };
 
+/// Two inner lip points that may meet but not cross: see `displacements`.
+struct LipsThatMeet {
+    std::size_t upper = 0, lower = 0;  ///< rig points
+    Vec3 up;                           ///< from the lower lip to the upper, of length 1
+};
+
 /// Where the columns of a take land on a rig's points.
 struct TakeBinding {
     std::vector<std::int32_t> columns;  ///< one per rig point: its column in the take, or -1: it keeps still
     std::vector<std::string> missing;   ///< rig points that the take does not drive
     std::vector<std::string> unused;    ///< take columns that the rig does not have
     std::vector<LidsOverEye> lids;      ///< of eyes whose eyeball the rig knows
+    std::vector<LipsThatMeet> lips;
 };
 TakeBinding bind_take(const Rig& rig, const Take& take);
 
@@ -88,6 +95,7 @@ TakeBinding bind_take(const Rig& rig, const Take& take);
 /// Lids slide: a way along a straight line from open to closed would lead through the eyeball. A lid point that would
 /// come nearer to the eye's centre than the lids are at rest is put back outwards; between the upper and the lower
 /// lid's direction from the centre that distance passes from the one's to the other's, so that lids that meet still do.
+/// Inner lips press: where the outer lips come so near that the inner ones would pass each other, those meet halfway.
 void displacements(const Rig& rig, const TakeBinding& binding, std::span<const Vec3> row,
                    std::span<Vec3f> displacements) noexcept;
 
