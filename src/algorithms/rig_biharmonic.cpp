@@ -7,10 +7,7 @@
 
 #include "mien/algorithms/rig_biharmonic.hpp"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <vector>
 
 #include "algorithms/island.hpp"
@@ -57,15 +54,6 @@ struct SheetWeights {
     Eigen::MatrixXd covariance;       // movers x movers
 };
 
-// E is singular when nothing is far: a rigid shift then costs nothing. A little of the identity keeps its inverse,
-// which still gives shifts by far the largest variance.
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& e) {
-    const Eigen::Index n = e.rows();
-    const Eigen::MatrixXd regular =
-        (e + e.transpose()) / 2 + 1e-6 * e.diagonal().mean() * Eigen::MatrixXd::Identity(n, n);
-    return regular.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-}
-
 SheetWeights solve_sheet(const Sparse& q, const std::vector<Role>& role, const Movers& movers) {
     SheetWeights sheet;
     for (std::uint32_t p = 0; p < role.size(); ++p)
@@ -77,27 +65,6 @@ SheetWeights solve_sheet(const Sparse& q, const std::vector<Role>& role, const M
     sheet.weights = solve_checked(q_free, -Eigen::MatrixXd(q_between), "biharmonic rig");
     sheet.covariance = covariance_of(Eigen::MatrixXd(q_held) + q_between.transpose() * sheet.weights);
     return sheet;
-}
-
-// The rows of all places: {1} at a mover, nothing at what keeps still.
-WeightRows rows_of(const SheetWeights& sheet, const std::vector<Role>& role, const Movers& movers,
-                   std::uint32_t influences) {
-    const auto keep = influences == 0 ? static_cast<std::uint32_t>(movers.points.size()) : influences;
-    std::vector<std::vector<KeptWeight>> kept(role.size());
-    tbb::parallel_for(std::size_t{0}, sheet.free.size(), [&](std::size_t i) {
-        kept[sheet.free[i]] =
-            refit_row(sheet.weights.row(static_cast<Eigen::Index>(i)).transpose(), sheet.covariance, keep);
-    });
-    for (std::uint32_t m = 0; m < movers.places.size(); ++m) kept[movers.places[m]] = {{m, 1}};
-    WeightRows rows;
-    for (const auto& row : kept) {
-        for (const KeptWeight& entry : row) {
-            rows.points.push_back(movers.points[entry.column]);
-            rows.weights.push_back(entry.weight);
-        }
-        rows.starts.push_back(static_cast<std::uint32_t>(rows.points.size()));
-    }
-    return rows;
 }
 
 void check_options(const BiharmonicOptions& options) {
@@ -114,7 +81,8 @@ Rig rig_biharmonic(const Face& face, const BiharmonicOptions& options) {
     return rig_by_axes("biharmonic", face, [&](const Weld& weld, const std::vector<bool>&, const Movers& movers) {
         const std::vector<Role> role = roles(face.mesh, weld, movers, options.far_radius * scale);
         const Sparse q = energy(laplacian(face.mesh, weld), options.tension / (scale * scale));
-        return rows_of(solve_sheet(q, role, movers), role, movers, options.influences);
+        const SheetWeights sheet = solve_sheet(q, role, movers);
+        return refit_rows(role.size(), movers, sheet.free, sheet.weights, sheet.covariance, options.influences);
     });
 }
 
