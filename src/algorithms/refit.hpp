@@ -28,7 +28,7 @@ std::vector<KeptWeight> refit_row(const Eigen::VectorXd& row, const Eigen::Matri
 /// little of the identity: its inverse still gives shifts by far the largest variance.
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& energy);
 
-/// The rows of all places: {1} at a mover; at `places` (ascending, none of them a mover's) the row of `weights` cut to
+/// The rows of all places: {1} at a mover; at `places` (none of them a mover's) the row of `weights` cut to
 /// `influences` entries by `refit_row`, 0 for all; nothing elsewhere. `weights`: places x movers.
 WeightRows refit_rows(std::size_t place_count, const Movers& movers, std::span<const std::uint32_t> places,
                       const Eigen::MatrixXd& weights, const Eigen::MatrixXd& covariance, std::uint32_t influences);

@@ -8,11 +8,13 @@
 #include "mien/algorithms/rig_biharmonic.hpp"
 
 #include <fmt/format.h>
+#include <optional>
 #include <vector>
 
 #include "algorithms/island.hpp"
 #include "algorithms/laplacian.hpp"
 #include "algorithms/movers.hpp"
+#include "algorithms/pockets.hpp"
 #include "algorithms/refit.hpp"
 #include "algorithms/sparse_solve.hpp"
 
@@ -67,6 +69,36 @@ SheetWeights solve_sheet(const Sparse& q, const std::vector<Role>& role, const M
     return sheet;
 }
 
+// The skin that is solved, and what follows its rim.
+struct SolvedSkin {
+    Mesh solved;
+    std::vector<std::uint32_t> pocket;  // places
+};
+
+SolvedSkin skin_of(const Face& face, const Weld& weld, const std::vector<bool>& solved, bool cut_pockets) {
+    if (!cut_pockets) return {face.mesh, {}};
+    const std::vector<bool> is_pocket = closed_pockets(face, weld, solved);
+    SolvedSkin skin;
+    for (std::uint32_t p = 0; p < is_pocket.size(); ++p)
+        if (is_pocket[p]) skin.pocket.push_back(p);
+    skin.solved = skin.pocket.empty() ? face.mesh : without_places(face.mesh, weld, is_pocket);
+    return skin;
+}
+
+// Adds the rows of the pockets to those of the sheet.
+void carry_pockets(SheetWeights& sheet, const Mesh& mesh, const Weld& weld, const Movers& movers,
+                   const std::vector<std::uint32_t>& pocket) {
+    if (pocket.empty()) return;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(std::ssize(weld.vertex), std::ssize(movers.places));
+    all(sheet.free, Eigen::all) = sheet.weights;
+    for (Eigen::Index m = 0; m < all.cols(); ++m) all(movers.places[static_cast<std::size_t>(m)], m) = 1;
+    const Eigen::MatrixXd carried = fill_pockets(mesh, weld, pocket, all);
+    const Eigen::Index free = sheet.weights.rows();
+    sheet.weights.conservativeResize(free + carried.rows(), Eigen::NoChange);
+    sheet.weights.bottomRows(carried.rows()) = carried;
+    sheet.free.insert(sheet.free.end(), pocket.begin(), pocket.end());
+}
+
 void check_options(const BiharmonicOptions& options) {
     if (!(options.tension >= 0)) throw Error(fmt::format("tension: expected 0 or more, found {}", options.tension));
     if (!(options.far_radius > 0))
@@ -78,12 +110,16 @@ void check_options(const BiharmonicOptions& options) {
 Rig rig_biharmonic(const Face& face, const BiharmonicOptions& options) {
     check_options(options);
     const double scale = face_scale(face);
-    return rig_by_axes("biharmonic", face, [&](const Weld& weld, const std::vector<bool>&, const Movers& movers) {
-        const std::vector<Role> role = roles(face.mesh, weld, movers, options.far_radius * scale);
-        const Sparse q = energy(laplacian(face.mesh, weld), options.tension / (scale * scale));
-        const SheetWeights sheet = solve_sheet(q, role, movers);
-        return refit_rows(role.size(), movers, sheet.free, sheet.weights, sheet.covariance, options.influences);
-    });
+    std::optional<SolvedSkin> skin;  // the same for all axes
+    return rig_by_axes(
+        "biharmonic", face, [&](const Weld& weld, const std::vector<bool>& solved, const Movers& movers) {
+            if (!skin) skin = skin_of(face, weld, solved, options.cut_pockets);
+            const std::vector<Role> role = roles(skin->solved, weld, movers, options.far_radius * scale);
+            const Sparse q = energy(laplacian(skin->solved, weld), options.tension / (scale * scale));
+            SheetWeights sheet = solve_sheet(q, role, movers);
+            carry_pockets(sheet, face.mesh, weld, movers, skin->pocket);
+            return refit_rows(role.size(), movers, sheet.free, sheet.weights, sheet.covariance, options.influences);
+        });
 }
 
 }  // namespace mien
