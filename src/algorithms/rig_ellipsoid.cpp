@@ -7,8 +7,8 @@
 // As written (Reading::paper): straight lines from point to vertex, the four largest of the weights of at least 0.05,
 // normalised. Count and threshold are ours, the paper says "only the maximum weights with significant contribution".
 // Remedied: the offset d keeps its direction and gets the length of the way along the surface, so that lips and lids
-// are far from each other; all weights, times the coverage 1 - prod(1 - w), so that the rim of an ellipsoid moves
-// little; the points held, and the smoothing of weight_smoothing.hpp.
+// are far from each other; all weights, times the coverage 1 - prod(1 - w), so that the
+// rim of an ellipsoid moves little; the points held, and the smoothing of weight_smoothing.hpp.
 
 #include "mien/algorithms/rig_ellipsoid.hpp"
 
@@ -31,6 +31,7 @@ namespace {
 
 constexpr double radius_factor = 1.5;
 constexpr double along_axis = 0.6;  // cosine of 53 degrees: what lies "along" an axis
+constexpr double across_a_gap = 2;  // how much longer than the straight line a way round is
 constexpr double least_weight = 0.05;
 constexpr std::size_t most_weights = 4;
 constexpr double tie = 1e-5;
@@ -42,14 +43,16 @@ std::vector<Vec3> positions_of(const Mesh& mesh, const Weld& weld, const Movers&
     return positions;
 }
 
-// The radii of one point. `alone`: the radius where there is no other point.
-Vec3 radii(std::span<const Vec3> points, std::size_t i, double alone) {
+// The radii of point i, whose ways to the others are `ways`. A lip takes no measure from the other one, which it may
+// touch. `alone`: the radius where there is no other point.
+Vec3 radii(std::span<const Vec3> points, std::span<const double> ways, std::size_t i, double alone) {
     constexpr double none = std::numeric_limits<double>::infinity();
     double nearest = none, across = none, up = none;
     for (std::size_t j = 0; j < points.size(); ++j) {
         if (j == i) continue;
         const Vec3 offset = points[j] - points[i];
         const double far = length(offset);
+        if (ways[j] > across_a_gap * far) continue;
         nearest = std::min(nearest, far);
         if (std::abs(offset.x) >= along_axis * far) across = std::min(across, far);
         if (std::abs(offset.y) >= along_axis * far) up = std::min(up, far);
@@ -72,15 +75,30 @@ struct Influence {
 };
 using Rows = std::vector<std::vector<Influence>>;
 
-// How much longer the way along the surface is than the straight line, per place. Nothing reaches other islands.
-std::vector<double> stretches(const EdgeGraph& graph, const Mesh& mesh, const Weld& weld, std::uint32_t from,
-                              double limit) {
-    std::vector<double> stretch = surface_distances(graph, from, limit);
-    const Vec3 at = position(mesh, weld, from);
-    for (std::uint32_t p = 0; p < stretch.size(); ++p)
-        if (const double straight = distance(position(mesh, weld, p), at); straight > 0)
-            stretch[p] = std::max(1.0, stretch[p] / straight);
-    return stretch;
+// The ways from one mover to every place: straight as written, else along the surface.
+std::vector<double> ways_from(const Face& face, const Weld& weld, const EdgeGraph& graph, std::uint32_t from,
+                              Reading reading) {
+    if (reading == Reading::remedied) return surface_distances(graph, from);
+    const Vec3 at = position(face.mesh, weld, from);
+    std::vector<double> ways;
+    for (std::uint32_t p = 0; p < weld.vertex.size(); ++p) ways.push_back(distance(position(face.mesh, weld, p), at));
+    return ways;
+}
+
+// The places that one mover influences; `mover` then holds the place.
+std::vector<Influence> influences_of(const Face& face, const Weld& weld, const std::vector<bool>& solved,
+                                     std::span<const double> ways, std::span<const double> to_points,
+                                     std::span<const Vec3> points, std::size_t i) {
+    const Vec3 r = radii(points, to_points, i, face_scale(face));
+    std::vector<Influence> influences;
+    for (std::uint32_t p = 0; p < solved.size(); ++p) {
+        if (!solved[p] || !std::isfinite(ways[p])) continue;
+        const Vec3 d = position(face.mesh, weld, p) - points[i];
+        const double straight = length(d);
+        const double weight = ellipsoid(d, r, straight > 0 ? ways[p] / straight : 1);
+        if (weight > 0) influences.push_back({p, weight});
+    }
+    return influences;
 }
 
 Rows influences(const Face& face, const Weld& weld, const std::vector<bool>& solved, const Movers& movers,
@@ -89,16 +107,10 @@ Rows influences(const Face& face, const Weld& weld, const std::vector<bool>& sol
     const std::vector<Vec3> points = positions_of(face.mesh, weld, movers);
     std::vector<std::vector<Influence>> by_mover(points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-        const Vec3 r = radii(points, i, face_scale(face));
-        std::vector<double> stretch;
-        if (reading == Reading::remedied)
-            stretch = stretches(graph, face.mesh, weld, movers.places[i], std::max(r.x, r.y));
-        for (std::uint32_t p = 0; p < solved.size(); ++p) {
-            const double way = stretch.empty() || p == movers.places[i] ? 1 : stretch[p];
-            if (!solved[p] || !std::isfinite(way)) continue;
-            const double weight = ellipsoid(position(face.mesh, weld, p) - points[i], r, way);
-            if (weight > 0) by_mover[i].push_back({p, weight});
-        }
+        const std::vector<double> ways = ways_from(face, weld, graph, movers.places[i], reading);
+        std::vector<double> to_points;
+        for (const std::uint32_t place : movers.places) to_points.push_back(ways[place]);
+        by_mover[i] = influences_of(face, weld, solved, ways, to_points, points, i);
     });
     Rows rows(solved.size());
     for (std::uint32_t i = 0; i < by_mover.size(); ++i)
