@@ -25,7 +25,7 @@ constexpr std::uint32_t lip_ring = 9;  // the last ring that is seen
 Face purse(bool with_floor) {
     std::vector<Ring> rings;
     for (std::uint32_t i = 0; i <= lip_ring; ++i) {
-        const double polar = 3.14159265358979 * (0.95 - 0.9495 * i / lip_ring);
+        const double polar = 3.14159265358979 * (0.9 - 0.8995 * i / lip_ring);
         rings.push_back({static_cast<float>(std::sin(polar)), static_cast<float>(std::cos(polar))});
     }
     for (const Ring inside : {Ring{0.15F, 0.85F}, Ring{0.3F, 0.7F}, Ring{0.35F, 0.5F}, Ring{0.3F, 0.3F}})
