@@ -21,6 +21,7 @@
 #include "mien/algorithms/deform.hpp"
 #include "mien/face.hpp"
 #include "mien/io/gltf.hpp"
+#include "mien/io/obj.hpp"
 #include "mien/io/points.hpp"
 #include "mien/rig.hpp"
 
@@ -59,6 +60,17 @@ inline Subject read_subject() {
     const std::string points = contents("feature_points.json");
     Subject subject{read_face(contents("ict_face.glb"), points), nlohmann::json::parse(points).at("_sets")};
     subject.skin = vertex_count(subject.face.mesh);
+    return subject;
+}
+
+/// The same with the model's own quads, which edge distances run along, instead of their triangles.
+inline Subject read_quad_subject() {
+    Subject subject = read_subject();
+    const std::string text = contents("ict_neutral.obj");
+    const Mesh quads = parse_obj(std::as_bytes(std::span(text)));
+    subject.face.mesh.face_starts = quads.face_starts;
+    subject.face.mesh.face_vertices = quads.face_vertices;
+    subject.face.mesh.parts.clear();
     return subject;
 }
 

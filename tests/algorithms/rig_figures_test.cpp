@@ -83,6 +83,16 @@ TEST_F(RigFigures, TheOtherRigsComeAsFarAsTheyDidElsewhere) {
     EXPECT_LE(error("all_skin", "rbf-surface", Reading::remedied), 0.31);
 }
 
+// Regions that grow by edges, and ways along edges, depend on where the edges are: the study has the model's quads.
+TEST_F(RigFigures, OnTheModelsQuadsThePaperGivesWhatTheStudyFound) {
+    subject = figures::read_quad_subject();
+    const auto error = [&](const char* set) {
+        return figures::measure(rig_surface_distance(figures::with_set(subject, set), {Reading::paper}), subject).error;
+    };
+    EXPECT_NEAR(error("all_skin"), 0.51, 0.03);
+    EXPECT_NEAR(error("vicon27"), 0.94, 0.03);
+}
+
 TEST_F(RigFigures, AFewSuggestedPointsAreWorthMoreThanAnotherMethod) {
     const auto error = [&](const char* set, std::uint32_t count) {
         Face face = figures::with_set(subject, set);
