@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     Call call;
     add_animate(app, call);
     add_inspect(app, call);
+    add_points(app, call);
     add_rig(app, call);
     add_retarget(app, call);
     add_deform(app, call);

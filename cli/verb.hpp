@@ -44,6 +44,7 @@ CLI::App* add_verb(CLI::App& app, Call& call, const std::string& name, const std
 /// One per verb: declares its flags and its work.
 void add_animate(CLI::App& app, Call& call);
 void add_inspect(CLI::App& app, Call& call);
+void add_points(CLI::App& app, Call& call);
 void add_rig(CLI::App& app, Call& call);
 void add_retarget(CLI::App& app, Call& call);
 void add_deform(CLI::App& app, Call& call);

@@ -1,104 +1,25 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the mien authors
 
-// Tension biharmonic weights (docs/methods.md): the sheet's energy Q = L M^-1 L + a L with feature points held at one
-// or zero and far places at zero. Rows are cut by refitting: Q's Schur complement on the points, E, is the energy of
-// the sheet as a function of its points, and E^-1 is how points move together when the sheet is all that is known.
+// Tension biharmonic weights (docs/methods.md), solved on the sheet of sheet.hpp. Rows are cut by refitting: the
+// inverse of the sheet's energy is how points move together when the sheet is all that is known.
 
 #include "mien/algorithms/rig_biharmonic.hpp"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <optional>
 #include <vector>
 
 #include "algorithms/island.hpp"
-#include "algorithms/laplacian.hpp"
 #include "algorithms/movers.hpp"
 #include "algorithms/refit.hpp"
-#include "algorithms/sparse_solve.hpp"
+#include "algorithms/sheet.hpp"
 
-#include "mien/algorithms/surface_distance.hpp"
 #include "mien/error.hpp"
 
 namespace mien {
 
 namespace {
-
-using Sparse = Eigen::SparseMatrix<double>;
-
-enum class Role : std::uint8_t { still, free, held };
-
-// Free are the places that a mover reaches within `radius` along the surface.
-std::vector<Role> roles(const Mesh& mesh, const Weld& weld, const Movers& movers, double radius) {
-    const EdgeGraph graph = edge_graph(mesh, weld);
-    std::vector<Role> role(weld.vertex.size(), Role::still);
-    for (const std::uint32_t place : movers.places) {
-        const std::vector<double> d = surface_distances(graph, place, radius);
-        for (std::size_t p = 0; p < d.size(); ++p)
-            if (d[p] <= radius) role[p] = Role::free;
-    }
-    for (const std::uint32_t place : movers.places) role[place] = Role::held;
-    return role;
-}
-
-Sparse energy(const Laplacian& surface, double tension) {
-    const Eigen::VectorXd inverse = surface.areas.cwiseInverse();
-    const Sparse& l = surface.stiffness;
-    Sparse q = l * inverse.asDiagonal() * l;
-    q += tension * l;
-    return q;
-}
-
-struct SheetWeights {
-    std::vector<std::uint32_t> free;  // places, ascending
-    Eigen::MatrixXd weights;          // free x movers
-    Eigen::MatrixXd covariance;       // movers x movers
-};
-
-// E is singular when nothing is far: a rigid shift then costs nothing. A little of the identity keeps its inverse,
-// which still gives shifts by far the largest variance.
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& e) {
-    const Eigen::Index n = e.rows();
-    const Eigen::MatrixXd regular =
-        (e + e.transpose()) / 2 + 1e-6 * e.diagonal().mean() * Eigen::MatrixXd::Identity(n, n);
-    return regular.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-}
-
-SheetWeights solve_sheet(const Sparse& q, const std::vector<Role>& role, const Movers& movers) {
-    SheetWeights sheet;
-    for (std::uint32_t p = 0; p < role.size(); ++p)
-        if (role[p] == Role::free) sheet.free.push_back(p);
-    const Sparse to_free = picks(q.rows(), sheet.free), to_held = picks(q.rows(), movers.places);
-    const Sparse q_free = to_free.transpose() * q * to_free;
-    const Sparse q_between = to_free.transpose() * q * to_held;
-    const Sparse q_held = to_held.transpose() * q * to_held;
-    sheet.weights = solve_checked(q_free, -Eigen::MatrixXd(q_between), "biharmonic rig");
-    sheet.covariance = covariance_of(Eigen::MatrixXd(q_held) + q_between.transpose() * sheet.weights);
-    return sheet;
-}
-
-// The rows of all places: {1} at a mover, nothing at what keeps still.
-WeightRows rows_of(const SheetWeights& sheet, const std::vector<Role>& role, const Movers& movers,
-                   std::uint32_t influences) {
-    const auto keep = influences == 0 ? static_cast<std::uint32_t>(movers.points.size()) : influences;
-    std::vector<std::vector<KeptWeight>> kept(role.size());
-    tbb::parallel_for(std::size_t{0}, sheet.free.size(), [&](std::size_t i) {
-        kept[sheet.free[i]] =
-            refit_row(sheet.weights.row(static_cast<Eigen::Index>(i)).transpose(), sheet.covariance, keep);
-    });
-    for (std::uint32_t m = 0; m < movers.places.size(); ++m) kept[movers.places[m]] = {{m, 1}};
-    WeightRows rows;
-    for (const auto& row : kept) {
-        for (const KeptWeight& entry : row) {
-            rows.points.push_back(movers.points[entry.column]);
-            rows.weights.push_back(entry.weight);
-        }
-        rows.starts.push_back(static_cast<std::uint32_t>(rows.points.size()));
-    }
-    return rows;
-}
 
 void check_options(const BiharmonicOptions& options) {
     if (!(options.tension >= 0)) throw Error(fmt::format("tension: expected 0 or more, found {}", options.tension));
@@ -111,11 +32,14 @@ void check_options(const BiharmonicOptions& options) {
 Rig rig_biharmonic(const Face& face, const BiharmonicOptions& options) {
     check_options(options);
     const double scale = face_scale(face);
-    return rig_by_axes("biharmonic", face, [&](const Weld& weld, const std::vector<bool>&, const Movers& movers) {
-        const std::vector<Role> role = roles(face.mesh, weld, movers, options.far_radius * scale);
-        const Sparse q = energy(laplacian(face.mesh, weld), options.tension / (scale * scale));
-        return rows_of(solve_sheet(q, role, movers), role, movers, options.influences);
-    });
+    std::optional<SheetSkin> skin;  // the same for all axes
+    return rig_by_axes("biharmonic", face,
+                       [&](const Weld& weld, const std::vector<bool>& solved, const Movers& movers) {
+                           if (!skin) skin = sheet_skin(face, weld, solved, options.cut_pockets);
+                           const Sheet sheet = solve_sheet(face.mesh, *skin, weld, movers, scale, options);
+                           return refit_rows(weld.vertex.size(), movers, sheet.free, sheet.weights,
+                                             covariance_of(sheet.energy), options.influences);
+                       });
 }
 
 }  // namespace mien

@@ -15,7 +15,7 @@ import program
 from program import HEAD, MAP, POINTS, SHARED, TAKE, run
 
 ROWS = 24
-VERBS = ("animate", "inspect", "rig", "retarget", "deform")
+VERBS = ("animate", "inspect", "points", "rig", "retarget", "deform")
 
 
 class CommandLine(unittest.TestCase):
@@ -262,6 +262,33 @@ class CommandLine(unittest.TestCase):
         self.assertLess(max(abs(a - b) for a, b in zip(one, steps)), 0.5 * moved)
 
     @unittest.skipUnless(SHARED.is_dir(), "no data beside the project")
+    def test_points_that_a_head_lacks_are_named_written_and_work_everywhere(self):
+        few = {name: value for name, value in json.loads(POINTS.read_text(encoding="utf-8"))["points"].items()
+               if name[:2] in ("3.", "4.", "8.", "9.")}
+        points, more, rig = (self.out / name for name in ("few.json", "more.json", "r.glb"))
+        points.write_text(json.dumps({"points": few}), encoding="utf-8")
+        said = json.loads(self.done(run("points", HEAD, "--points", points, "--count", "6", "-o", more, "--json")).stdout)
+        names = [entry["point"] for entry in said["suggested"]]
+        self.assertEqual(names[0], "2.10")
+        self.assertLessEqual(len(names), 6)
+        self.assertTrue(all(entry["saves"] > 0 for entry in said["suggested"]))
+        written = json.loads(more.read_text(encoding="utf-8"))["points"]
+        self.assertEqual(set(written), set(few) | set(names))
+        written["wart"] = 5
+        more.write_text(json.dumps({"points": written}), encoding="utf-8")
+        self.done(run("rig", HEAD, "--points", more, "-o", rig))
+        header = "time," + ",".join(f"M{i}.{axis}" for i in range(4) for axis in "xyz")
+        take, markers, onto = (self.out / name for name in ("t.csv", "m.csv", "onto.csv"))
+        take.write_text(header + "\n0,0,0,0,1,0,0,0,1,0,0,0,1\n1,0,0,0,1,0,0,0,1,0,0,0.5,1\n", encoding="utf-8")
+        markers.write_text("M0,8.3\nM1,8.4\nM2,9.3\nM3,wart\n", encoding="utf-8")
+        self.done(run("retarget", take, "--rig", rig, "--map", markers, "--head", "keep", "-o", onto))
+        self.assertIn("wart.x", onto.read_text(encoding="utf-8").splitlines()[0])
+
+    def test_a_head_of_too_few_points_gets_no_suggestions(self):
+        points = self.work / "three.points.json"
+        points.write_text('{"8.3": 1, "8.4": 20, "9.3": 300}', encoding="utf-8")
+        self.refused(run("points", HEAD, "--points", points, "-o", self.out / "p.json"), 1, "at least 4")
+
     def test_a_real_head_performs_a_real_take(self):
         head, capture = SHARED / "mh-caucasian", SHARED / "markers-41"
         result = self.done(run("animate", head / "mh-caucasian-female.glb", "--points", head / "points-glb.json",
