@@ -68,9 +68,10 @@ void refuse_uneven(const PerformanceFlags& flags) {
 }  // namespace
 
 void add_performance_flags(CLI::App& verb, PerformanceFlags& flags, const std::string& take_name) {
-    verb.add_option(take_name, flags.takes,
-                    "the performance: .trc .csv; several are merged, each with an --only of its own, at the times of "
-                    "the first")
+    verb.add_option(
+            take_name, flags.takes,
+            "the performance: .trc .csv .c3d; several are merged, each with an --only of its own, at the times of "
+            "the first")
         ->required()
         ->allow_extra_args(!take_name.starts_with("--"));
     add_take_flags(verb, flags.take);

@@ -18,6 +18,7 @@
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
+#include "mien/io/c3d.hpp"
 #include "mien/io/marker_map.hpp"
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
@@ -167,7 +168,8 @@ Scene read_scene(const fs::path& path) {
 Take read_take(const fs::path& path) {
     if (has_extension(path, ".trc")) return parsed(path, parse_trc);
     if (has_extension(path, ".csv")) return parsed(path, parse_take_csv);
-    unknown_extension(path, ".trc or .csv");
+    if (has_extension(path, ".c3d")) return parsed(path, parse_c3d);
+    unknown_extension(path, ".trc, .csv or .c3d");
 }
 
 PointsFile read_points(const fs::path& path, const Mesh& mesh) {

@@ -24,7 +24,7 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// others.
 Scene read_scene(const std::filesystem::path& path);
 
-/// Reads a take by its extension: .trc .csv.
+/// Reads a take by its extension: .trc .csv .c3d.
 Take read_take(const std::filesystem::path& path);
 
 /// Reads feature points for a mesh.
