@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "fap_files.hpp"
 #include "inputs.hpp"
 #include "verb.hpp"
 
@@ -110,6 +111,11 @@ void inspect(Call& call, const Inspect& flags) {
         inspect_take(mark_zeros_lost(read_take(flags.file)), report);
         return;
     }
+    if (is_faps(flags.file)) {
+        report["kind"] = "face animation parameters";
+        load_faps(flags.file, report);
+        return;
+    }
     const Mesh mesh = read_mesh(flags.file);
     inspect_mesh(mesh, report);
     if (is_rig(mesh)) inspect_rig(read_rig(flags.file).rig, report);
@@ -123,7 +129,9 @@ void add_inspect(CLI::App& app, Call& call) {
     CLI::App* verb =
         add_verb(app, call, "inspect", "Says what is in a mesh, take or rig file, and what is odd about it.",
                  "mien inspect kate.glb --points kate.json", [&call, flags] { inspect(call, *flags); });
-    verb->add_option("file", flags->file, "a mesh (.glb .gltf .obj .off .ply), take (.trc .csv .c3d) or rig (.glb)")
+    verb->add_option("file", flags->file,
+                     "a mesh (.glb .gltf .obj .off .ply), take (.trc .csv .c3d), rig (.glb) or animation parameters "
+                     "(.fap .fba)")
         ->required();
     verb->add_option("--points", flags->points, "feature points of the mesh, to be checked against it (.json)");
 }

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,7 +36,8 @@ namespace mien {
 namespace {
 
 constexpr std::size_t block = 512;
-constexpr std::uint64_t most_counted = 65535;
+constexpr std::uint16_t most_counted = 65535;
+constexpr std::uint64_t all_there_are = std::numeric_limits<std::uint64_t>::max();
 
 [[noreturn]] void fail(const std::string& sentence) {
     throw Error("c3d: " + sentence);
@@ -186,7 +188,7 @@ private:
 // What is needed to find the samples.
 struct Layout {
     std::size_t points = 0, analog = 0;  // analog samples in a frame
-    std::uint64_t frames = 0;            // as promised
+    std::uint64_t frames = 0;            // as promised; or all that there are
     std::size_t data = 0;                // offset of the first frame
     bool real = false;
     double scale = 1, rate = 0;
@@ -222,7 +224,7 @@ std::uint64_t promised_frames(const Numbers& file, const Parameters& parameters)
         return static_cast<std::uint64_t>(*frames);
     const std::uint16_t from = file.word(6), to = file.word(8);
     if (to < from || to == 0) fail(fmt::format("expected frames, found none: from {} to {}", from, to));
-    return std::uint64_t{to} - from + 1;
+    return to == most_counted ? all_there_are : std::uint64_t{to} - from + 1;
 }
 
 double read_rate(const Numbers& file, const Parameters& parameters) {
@@ -286,9 +288,9 @@ Vec3 sample_at(const Numbers& file, const Layout& layout, std::size_t at) {
 
 void read_frames(const Numbers& file, const Layout& layout, Take& take) {
     const std::uint64_t whole = (file.size() - layout.data) / layout.frame();
-    const std::uint64_t promised = layout.frames == most_counted ? std::max(layout.frames, whole) : layout.frames;
+    const std::uint64_t promised = layout.frames == all_there_are ? whole : layout.frames;
     const auto frames = static_cast<std::size_t>(std::min(promised, whole));
-    if (frames == 0) fail(fmt::format("expected {} frames of {} bytes, found no whole one", promised, layout.frame()));
+    if (frames == 0) fail(fmt::format("expected frames of {} bytes, found no whole one", layout.frame()));
     take.missing_rows = static_cast<std::size_t>(promised - frames);
     take.samples.reserve(frames * layout.points);
     for (std::size_t f = 0; f < frames; ++f) {

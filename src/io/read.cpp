@@ -19,6 +19,7 @@
 
 #include "mien/error.hpp"
 #include "mien/io/c3d.hpp"
+#include "mien/io/fap_text.hpp"
 #include "mien/io/marker_map.hpp"
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
@@ -170,6 +171,12 @@ Take read_take(const fs::path& path) {
     if (has_extension(path, ".csv")) return parsed(path, parse_take_csv);
     if (has_extension(path, ".c3d")) return parsed(path, parse_c3d);
     unknown_extension(path, ".trc, .csv or .c3d");
+}
+
+DecodedFaps read_faps(const fs::path& path) {
+    if (has_extension(path, ".fba")) return parsed(path, parse_fba);
+    if (!has_extension(path, ".fap")) unknown_extension(path, ".fap or .fba");
+    return parsed(path, [](std::span<const std::byte> bytes) { return DecodedFaps{parse_fap_text(bytes), {}}; });
 }
 
 PointsFile read_points(const fs::path& path, const Mesh& mesh) {

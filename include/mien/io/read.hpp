@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mien/face.hpp"
+#include "mien/io/fba.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
 #include "mien/scene.hpp"
@@ -26,6 +27,9 @@ Scene read_scene(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv .c3d.
 Take read_take(const std::filesystem::path& path);
+
+/// Reads face animation parameters by their extension: .fap (text) .fba (bitstream).
+DecodedFaps read_faps(const std::filesystem::path& path);
 
 /// Reads feature points for a mesh.
 PointsFile read_points(const std::filesystem::path& path, const Mesh& mesh);
