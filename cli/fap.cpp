@@ -91,22 +91,27 @@ void add_blend(CLI::App& verbs, Call& call) {
     verb->add_option("--share", *share, "of the second one: 0 is the first alone, 1 the second")->capture_default_str();
 }
 
+Report rows_of(const FapStream& stream) {
+    Report rows = Report::array();
+    for (const FapStatistics& row : statistics(stream))
+        rows.push_back({{"fap", row.fap},
+                        {"name", fap_info(row.fap).name},
+                        {"frames", row.frames},
+                        {"low", row.low},
+                        {"high", row.high},
+                        {"mean", row.mean},
+                        {"deviation", row.deviation},
+                        {"outside", row.outside},
+                        {"negative", row.negative}});
+    return rows;
+}
+
 void add_statistics(CLI::App& verbs, Call& call) {
     const auto file = std::make_shared<std::filesystem::path>();
     CLI::App* verb = add_verb(verbs, call, "statistics", "Says what a stream does with each parameter.",
                               "mien fap statistics smile.fap", [&call, file] {
-                                  Report& rows = call.report["statistics"] = Report::array();
                                   const FapStream stream = load_faps(*file, call.report);
-                                  for (const FapStatistics& row : statistics(stream))
-                                      rows.push_back({{"fap", row.fap},
-                                                      {"name", fap_info(row.fap).name},
-                                                      {"frames", row.frames},
-                                                      {"low", row.low},
-                                                      {"high", row.high},
-                                                      {"mean", row.mean},
-                                                      {"deviation", row.deviation},
-                                                      {"outside", row.outside},
-                                                      {"negative", row.negative}});
+                                  call.report["statistics"] = rows_of(stream);
                               });
     verb->add_option("faps", *file, "the parameters: .fap .fba")->required();
 }
