@@ -91,7 +91,7 @@ FapStream retimed(const FapStream& stream, const RetimeOptions& options) {
 std::vector<int> part_faps(std::string_view part) {
     Take points;  // without rows: the points that parameters move
     for (const Fap& fap : faps)
-        if (!find_column(points, fap.point)) points.points.emplace_back(fap.point);
+        if (!fap.point.empty() && !find_column(points, fap.point)) points.points.emplace_back(fap.point);
     std::vector<std::string> ids;
     const auto named = std::find_if(faps.begin(), faps.end(), [&](const Fap& fap) { return fap.name == part; });
     if (named != faps.end()) return {static_cast<int>(named - faps.begin()) + 1};

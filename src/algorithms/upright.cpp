@@ -15,19 +15,16 @@ namespace mien {
 
 namespace {
 
-// Which way a face is turned and leans shows in its symmetry; how far it nods only in its relief, which differs from
-// face to face: five heads that look straight on seem to look from 2 degrees up to 15 down. So a nod is believed only
-// where it is far larger, as where a capture has another axis for up; else it is that of the capture.
+// Where its left is shows in a face's symmetry; how far it nods only in its relief, which differs from face to face:
+// five heads that look straight on seem to look from 2 degrees up to 15 down. So a nod is believed only where it is far
+// larger, as where a capture has another axis for up; else the face is taken to look level.
 constexpr double least_nod = 0.35;  // radians
 
 Quaternion without_small_nod(const Quaternion& turn) {
     const Vec3 ahead = rotate(turn, {0, 0, 1});
     if (std::abs(std::asin(std::clamp(ahead.y, -1.0, 1.0))) > least_nod) return turn;
-    const double yaw = std::atan2(ahead.x, ahead.z);
-    const double roll = std::atan2(rotate(turn, {1, 0, 0}).y, rotate(turn, {0, 1, 0}).y);
-    const Quaternion about_y{0, std::sin(yaw / 2), 0, std::cos(yaw / 2)};
-    const Quaternion about_z{0, 0, std::sin(roll / 2), std::cos(roll / 2)};
-    return about_y * about_z;
+    const Vec3 left = rotate(turn, {1, 0, 0}), level = cross(left, {0, 1, 0}) / length(cross(left, {0, 1, 0}));
+    return nearest_rotation({left, cross(level, left), level});
 }
 
 }  // namespace
