@@ -60,6 +60,7 @@ int run(int argc, char** argv) {
     add_encode(app, call);
     add_decode(app, call);
     add_fap(app, call);
+    add_morph(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -53,5 +53,6 @@ void add_play(CLI::App& app, Call& call);
 void add_encode(CLI::App& app, Call& call);
 void add_decode(CLI::App& app, Call& call);
 void add_fap(CLI::App& app, Call& call);
+void add_morph(CLI::App& app, Call& call);
 
 }  // namespace mien::cli

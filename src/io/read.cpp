@@ -21,6 +21,7 @@
 #include "mien/io/c3d.hpp"
 #include "mien/io/fap_text.hpp"
 #include "mien/io/marker_map.hpp"
+#include "mien/io/measured_points.hpp"
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
 #include "mien/io/ply.hpp"
@@ -181,6 +182,10 @@ DecodedFaps read_faps(const fs::path& path) {
 
 PointsFile read_points(const fs::path& path, const Mesh& mesh) {
     return parsed(path, [&](std::span<const std::byte> bytes) { return parse_points(bytes, mesh); });
+}
+
+std::vector<MeasuredPoint> read_measured_points(const fs::path& path) {
+    return parsed(path, parse_measured_points);
 }
 
 Face read_face(const fs::path& head, const fs::path& points) {

@@ -11,6 +11,7 @@
 #include "mien/io/fba.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
+#include "mien/measured_point.hpp"
 #include "mien/scene.hpp"
 #include "mien/take.hpp"
 
@@ -33,6 +34,9 @@ DecodedFaps read_faps(const std::filesystem::path& path);
 
 /// Reads feature points for a mesh.
 PointsFile read_points(const std::filesystem::path& path, const Mesh& mesh);
+
+/// Reads measured feature points (.json).
+std::vector<MeasuredPoint> read_measured_points(const std::filesystem::path& path);
 
 /// Reads a head with its feature points.
 Face read_face(const std::filesystem::path& head, const std::filesystem::path& points);
