@@ -147,6 +147,19 @@ class FaceAnimation(unittest.TestCase):
             for flag in re.findall(r"--[a-z-]+", example.group(1)):
                 self.assertIn(flag, result.stdout[:example.start()])
 
+    def test_a_head_is_reshaped_to_measured_points_and_keeps_its_rig(self):
+        report = self.done("morph", HEAD, "--points", POINTS, "--to", POINTS, "--to-head", HEAD, "-o", self.out / "m.glb")
+        self.assertEqual(report["morph"]["points_carried_by_the_skin"], [])
+        self.assertEqual((self.out / "m.glb").read_bytes(), self.rig.read_bytes())  # to its own points: nothing changes
+        front, side = self.work / "front.json", self.work / "side.json"
+        front.write_text('{"3.7": [50, 10, null], "3.8": [-50, 10, null], "2.1": [0, -120, null]}', encoding="utf-8")
+        side.write_text('{"3.7": [null, 10, 5], "2.1": [null, -120, 0], "3.8": [null, 10, 5]}', encoding="utf-8")
+        report = self.done("morph", self.rig, "--to", front, "--to", side, "-o", self.out / "n.glb")
+        self.assertEqual(report["morph"]["points_met"], 3)
+        self.done("play", self.out / "n.glb", self.smile, "-o", self.out / "p.mdd")
+        front.write_text('{"3.7": 4}', encoding="utf-8")
+        self.assertIn("front.json", run("morph", self.rig, "--to", front, "-o", self.out / "q.glb").stderr)
+
     @unittest.skipUnless(SHARED.is_dir(), "no data beside the project")
     def test_every_real_stream_plays_on_the_sample_head(self):
         for path in sorted((SHARED.parent / "mpeg4" / "samples").rglob("*.fap")):

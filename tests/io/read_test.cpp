@@ -140,6 +140,16 @@ TEST_F(Read, takes_faces_and_marker_maps_are_what_was_written) {
     EXPECT_EQ(read_marker_map(file("m.CSV", "chin,2.1\n")).at(0).to, "2.1");
 }
 
+TEST_F(Read, parameters_are_read_as_text_or_stream_by_their_extension) {
+    FapStream stream;
+    stream.frames.emplace_back().mask.set(2);
+    stream.frames[0].value[2] = 40;
+    const auto text = file("a.FAP", format_fap_text(stream)), bits = file("a.fba", format_fba(stream).bytes);
+    EXPECT_EQ(read_faps(text).stream.frames, stream.frames);
+    EXPECT_EQ(read_faps(bits).stream.frames, stream.frames);
+    EXPECT_THROW(read_faps(file("a.txt", "2.1 a 25 0")), Error);
+}
+
 TEST_F(Read, a_head_is_read_without_a_picture_that_is_not_there) {
     file("a.bin", gltf_positions());
     std::string text = gltf("a.bin");
