@@ -11,6 +11,7 @@
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
+#include "mien/io/fap_text.hpp"
 #include "mien/io/write.hpp"
 
 namespace mien {
