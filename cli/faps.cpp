@@ -40,11 +40,7 @@ Take turned_upright(const Take& take, const NeutralOptions& neutral, Report& rep
 }
 
 Fapu performer_units(const Take& take, const NeutralOptions& options, Report& report) {
-    Take rest;
-    rest.points = take.points;
-    rest.times = {0};
-    rest.samples = neutral(take, options);
-    Fapu fapu = measure_fapu(points_of_row(rest, 0));
+    Fapu fapu = measure_fapu(neutral_points(take, options));
     report["units"] = {{"irisd", fapu.irisd}, {"es", fapu.es}, {"ens", fapu.ens}, {"mns", fapu.mns}, {"mw", fapu.mw}};
     if (!fapu.estimated.empty()) report["units_estimated"] = fapu.estimated;
     return fapu;
