@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "inputs.hpp"
+
 #include "mien/algorithms/complete.hpp"
 #include "mien/algorithms/key_rows.hpp"
 #include "mien/algorithms/tracks.hpp"
@@ -47,11 +49,6 @@ Movement movement(const Actor& actor) {
 
 // How far apart pictures may be, and of how many vertices, when motion is looked at to choose from it.
 constexpr std::size_t most_times = 240, most_vertices = 500;
-
-bool is_take(const fs::path& file) {
-    const std::string extension = file.extension().string();
-    return extension == ".trc" || extension == ".csv";
-}
 
 Actor captured(const fs::path& file, Report& report) {
     Actor actor;

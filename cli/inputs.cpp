@@ -4,8 +4,10 @@
 #include "inputs.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <map>
+#include <string_view>
 
 #include "mien/error.hpp"
 #include "mien/io/read.hpp"
@@ -54,6 +56,14 @@ void add_rig_flags(CLI::App& verb, FaceFlags& flags) {
     verb.add_option("--rig-influences", flags.rig.influences, "points kept per vertex in the rig, 0 for all")
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
+}
+
+bool is_take(const std::filesystem::path& file) {
+    const std::string extension = file.extension().string();
+    const auto equal = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+    for (const std::string_view known : {".trc", ".csv", ".c3d"})
+        if (std::equal(extension.begin(), extension.end(), known.begin(), known.end(), equal)) return true;
+    return false;
 }
 
 Face load_face(const FaceFlags& flags, Report& report) {
@@ -151,6 +161,11 @@ Take without_head_motion(const Take& take, const TakeFlags& flags, Report& repor
 
 }  // namespace
 
+void report_missing(const Take& take, Report& report) {
+    if (take.missing_rows > 0)
+        warn(report, fmt::format("the take is cut: {} rows that it promises are not in the file", take.missing_rows));
+}
+
 Take load_take(const TakeFlags& flags, Report& report) {
     Take take = mark_zeros_lost(read_take(flags.take));
     Report& about = report["take"];
@@ -158,6 +173,7 @@ Take load_take(const TakeFlags& flags, Report& report) {
     about["rows"] = row_count(take);
     about["rows_per_second"] = frame_rate(take);
     about["columns"] = take.points.size();
+    report_missing(take, report);
     const TakeCheck check = check_take(take);
     if (!check.never_seen.empty()) about["columns_never_seen"] = check.never_seen;
     take = drop_never_seen(take);

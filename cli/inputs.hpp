@@ -34,6 +34,9 @@ Face load_face(const FaceFlags& flags, Report& report);
 /// Binds the rig and tells the report how every part of the head was reached.
 Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report);
 
+/// Whether a file holds a take, by its extension.
+bool is_take(const std::filesystem::path& file);
+
 /// Flags of verbs that take a performance.
 struct TakeFlags {
     std::filesystem::path take;
@@ -45,6 +48,9 @@ struct TakeFlags {
     double low_pass = 0;   ///< Hz; 0: off
 };
 void add_take_flags(CLI::App& verb, TakeFlags& flags);
+
+/// Warns of rows that the take's file promises and does not have.
+void report_missing(const Take& take, Report& report);
 
 /// Reads the take, gives its columns their feature point ids, takes the head's motion out, fills and smooths as asked,
 /// and tells the report what was lost and what was done.

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "fap_files.hpp"
+#include "inputs.hpp"
 #include "verb.hpp"
 
 #include "mien/algorithms/check_mesh.hpp"
@@ -86,6 +88,7 @@ void inspect_rig(const Rig& rig, Report& report) {
 void inspect_take(const Take& take, Report& report) {
     const TakeCheck check = check_take(take);
     report["kind"] = "take";
+    report_missing(take, report);
     report["rows"] = row_count(take);
     report["seconds"] = take.times.empty() ? 0.0 : take.times.back() - take.times.front();
     report["rows_per_second"] = frame_rate(take);
@@ -104,9 +107,13 @@ void inspect_take(const Take& take, Report& report) {
 void inspect(Call& call, const Inspect& flags) {
     Report& report = call.report;
     report["file"] = flags.file.string();
-    const std::string extension = flags.file.extension().string();
-    if (extension == ".trc" || extension == ".csv") {
+    if (is_take(flags.file)) {
         inspect_take(mark_zeros_lost(read_take(flags.file)), report);
+        return;
+    }
+    if (is_faps(flags.file)) {
+        report["kind"] = "face animation parameters";
+        load_faps(flags.file, report);
         return;
     }
     const Mesh mesh = read_mesh(flags.file);
@@ -122,7 +129,9 @@ void add_inspect(CLI::App& app, Call& call) {
     CLI::App* verb =
         add_verb(app, call, "inspect", "Says what is in a mesh, take or rig file, and what is odd about it.",
                  "mien inspect kate.glb --points kate.json", [&call, flags] { inspect(call, *flags); });
-    verb->add_option("file", flags->file, "a mesh (.glb .gltf .obj .off .ply), take (.trc .csv) or rig (.glb)")
+    verb->add_option("file", flags->file,
+                     "a mesh (.glb .gltf .obj .off .ply), take (.trc .csv .c3d), rig (.glb) or animation parameters "
+                     "(.fap .fba)")
         ->required();
     verb->add_option("--points", flags->points, "feature points of the mesh, to be checked against it (.json)");
 }

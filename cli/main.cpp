@@ -56,6 +56,12 @@ int run(int argc, char** argv) {
     add_retarget(app, call);
     add_deform(app, call);
     add_render(app, call);
+    add_faps(app, call);
+    add_play(app, call);
+    add_encode(app, call);
+    add_decode(app, call);
+    add_fap(app, call);
+    add_morph(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -45,18 +45,28 @@ std::string check_strength(const std::string& texts) {
     return {};
 }
 
-std::vector<PartStrength> named_numbers(const std::vector<std::string>& texts) {
+}  // namespace
+
+std::vector<PartStrength> part_strengths(const std::vector<std::string>& texts) {
     std::vector<PartStrength> result;
     for (const std::string& text : by_commas(texts))
         if (const auto number = part_strength(text)) result.push_back(*number);
     return result;
 }
 
+CLI::Option* add_strength_flag(CLI::App& verb, std::vector<std::string>& strengths, const std::string& help) {
+    return verb.add_option("--strength", strengths, help)
+        ->allow_extra_args(false)
+        ->check(CLI::Validator(check_strength, "PART=NUMBER"));
+}
+
+namespace {
+
 PartialOptions partial_options(const PerformanceFlags& flags, std::size_t take) {
     PartialOptions options;
     options.only = flags.takes.size() > 1 && !flags.only.empty() ? by_commas(flags.only[take]) : by_commas(flags.only);
     options.without = by_commas(flags.without);
-    options.strengths = named_numbers(flags.strengths);
+    options.strengths = part_strengths(flags.strengths);
     return options;
 }
 
@@ -68,9 +78,10 @@ void refuse_uneven(const PerformanceFlags& flags) {
 }  // namespace
 
 void add_performance_flags(CLI::App& verb, PerformanceFlags& flags, const std::string& take_name) {
-    verb.add_option(take_name, flags.takes,
-                    "the performance: .trc .csv; several are merged, each with an --only of its own, at the times of "
-                    "the first")
+    verb.add_option(
+            take_name, flags.takes,
+            "the performance: .trc .csv .c3d; several are merged, each with an --only of its own, at the times of "
+            "the first")
         ->required()
         ->allow_extra_args(!take_name.starts_with("--"));
     add_take_flags(verb, flags.take);
@@ -80,9 +91,7 @@ void add_performance_flags(CLI::App& verb, PerformanceFlags& flags, const std::s
             "the parts of the face that move, by commas: mouth, jaw, brows, lids, eyes, nose, cheeks, or points")
         ->allow_extra_args(false);
     verb.add_option("--without", flags.without, "the parts that do not move, by commas")->allow_extra_args(false);
-    verb.add_option("--strength", flags.strengths, "how strongly parts move, by commas: mouth=1.2,brows=0.5")
-        ->allow_extra_args(false)
-        ->check(CLI::Validator(check_strength, "PART=NUMBER"));
+    add_strength_flag(verb, flags.strengths, "how strongly parts move, by commas: mouth=1.2,brows=0.5");
     verb.add_option(
             "--sealed", flags.sealed,
             "how far the lips of a face whose mouth is open at rest stay open when the performer's are closed, in "
@@ -116,7 +125,7 @@ Take load_one(const PerformanceFlags& flags, std::size_t i, const Face& face, Re
         take = partial(take, neutral(take, one.neutral), parts);
     RetargetOptions options = flags.retarget;
     options.neutral = one.neutral;
-    for (const PartStrength& pair : named_numbers(flags.sealed)) options.sealed.push_back({pair.part, pair.strength});
+    for (const PartStrength& pair : part_strengths(flags.sealed)) options.sealed.push_back({pair.part, pair.strength});
     return load_onto(take, face, options, report);
 }
 

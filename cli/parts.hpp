@@ -9,6 +9,8 @@
 
 #include "inputs.hpp"
 
+#include "mien/algorithms/partial.hpp"
+
 namespace mien::cli {
 
 /// One or two and more takes, and which parts of the face each of them moves.
@@ -22,6 +24,10 @@ struct PerformanceFlags {
     std::vector<std::string> sealed;     ///< POINT=NUMBER
     bool depth = true;                   ///< estimated for takes from a picture
 };
+
+/// Parts and numbers out of texts such as "mouth=1.2,brows=0.5", and the flag that takes such texts.
+std::vector<PartStrength> part_strengths(const std::vector<std::string>& texts);
+CLI::Option* add_strength_flag(CLI::App& verb, std::vector<std::string>& strengths, const std::string& help);
 
 /// `take_name`: how the verb takes its takes, as an option or by their place.
 void add_performance_flags(CLI::App& verb, PerformanceFlags& flags, const std::string& take_name);

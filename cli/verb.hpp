@@ -49,5 +49,11 @@ void add_rig(CLI::App& app, Call& call);
 void add_retarget(CLI::App& app, Call& call);
 void add_deform(CLI::App& app, Call& call);
 void add_render(CLI::App& app, Call& call);
+void add_faps(CLI::App& app, Call& call);
+void add_play(CLI::App& app, Call& call);
+void add_encode(CLI::App& app, Call& call);
+void add_decode(CLI::App& app, Call& call);
+void add_fap(CLI::App& app, Call& call);
+void add_morph(CLI::App& app, Call& call);
 
 }  // namespace mien::cli

@@ -106,6 +106,9 @@ struct Fapu {
 
     /// What was missing and what took its place, a sentence each.
     std::vector<std::string> estimated;
+    /// The units that were taken from other points than those that define them; eye separation between the middles of
+    /// the corners is as good as between pupils and not among them.
+    std::vector<FapUnit> uncertain;
 };
 
 /// The length (or the angle in radians) that one unit stands for on this face; 0 for none.

@@ -25,6 +25,8 @@ struct Take {
     bool planar = false;     ///< a 2D source: z is absent and held at 0
     /// Rows of the file that gave way to the next one because it has the same time. For reports.
     std::size_t repeated_rows = 0;
+    /// Rows that the file promises beyond its end. For reports.
+    std::size_t missing_rows = 0;
 };
 
 /// One row of a take; also what a live source hands over.

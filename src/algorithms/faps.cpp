@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -293,6 +294,33 @@ Take to_take(const FapStream& stream, const Fapu& fapu) {
     }
     if (!head_moves) take.head.clear();
     return take;
+}
+
+namespace {
+
+// The lips' two contours, the jaw and the chin move together, whichever of them is sent.
+int part_of(const Fap& fap) {
+    constexpr int inner_lips_and_jaw = 2, outer_lips = 8;
+    return fap.group == outer_lips ? inner_lips_and_jaw : fap.group;
+}
+
+}  // namespace
+
+std::vector<std::string> told_points(const FapStream& stream, const Fapu& fapu) {
+    FapMask sent;
+    for (const FapFrame& frame : stream.frames) sent |= frame.mask;
+    std::bitset<11> moving;  // parts
+    for (std::size_t i = 0; i < fap_count; ++i)
+        if (sent[i]) moving.set(static_cast<std::size_t>(part_of(faps[i])));
+    std::vector<std::string> told;
+    for (const FeaturePoint& point : fapu.points) {
+        const bool is_told = std::any_of(faps.begin(), faps.end(), [&](const Fap& fap) {
+            return fap.point == point.id && (sent[static_cast<std::size_t>(&fap - faps.data())] ||
+                                             !moving[static_cast<std::size_t>(part_of(fap))]);
+        });
+        if (is_told) told.push_back(point.id);
+    }
+    return told;
 }
 
 }  // namespace mien

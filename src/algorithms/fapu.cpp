@@ -8,6 +8,7 @@
 
 #include <array>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -67,7 +68,9 @@ public:
     }
 
 private:
-    void note(std::string_view what, std::string_view missing, const std::string& taken) {
+    void note(std::string_view what, std::string_view missing, const std::string& taken,
+              std::initializer_list<FapUnit> units) {
+        fapu_.uncertain.insert(fapu_.uncertain.end(), units);
         fapu_.estimated.push_back(fmt::format("{}: {}; taken from {}", what, missing, taken));
     }
 
@@ -85,7 +88,9 @@ private:
             const auto left = middle(points_, pair.left), right = middle(points_, pair.right);
             if (!left || !right) continue;
             if (&pair != pairs.data())
-                note("ES", "3.5 or 3.6 is missing", fmt::format("{}, and {}", listed(pair.left), listed(pair.right)));
+                note("ES", "3.5 or 3.6 is missing", fmt::format("{}, and {}", listed(pair.left), listed(pair.right)),
+                     {});
+            if (&pair > pairs.data() + 1) fapu_.uncertain.push_back(FapUnit::es);
             fapu_.es = left->x - right->x;
             if (fapu_.es > least_share * distance(*left, *right)) return {*left, *right};
             throw Error(
@@ -100,7 +105,7 @@ private:
     Eyes eyes_without_points() {
         fapu_.es = eye_distance(points_);
         if (!(fapu_.es > 0)) throw Error("units of the face: expected points that tell how large it is, found too few");
-        note("ES", "no point of the eyes is there", "the spread of all points");
+        note("ES", "no point of the eyes is there", "the spread of all points", {FapUnit::es});
         Vec3 centre;
         for (const FeaturePoint& point : points_) centre += point.position / static_cast<double>(points_.size());
         const Vec3 aside{0.5 * fapu_.es, 0, 0}, up{0, 0.5 * fapu_.es, 0};
@@ -118,7 +123,7 @@ private:
         }
         if (count > 0 && sum / count > least_share * es) return sum / count;
         note("IRISD", count > 0 ? "the lids touch" : "neither eye has both lids (3.1 and 3.3, 3.2 and 3.4)",
-             fmt::format("{} of ES", iris_share));
+             fmt::format("{} of ES", iris_share), {FapUnit::irisd});
         return iris_share * es;
     }
 
@@ -135,11 +140,13 @@ private:
             if (!point) continue;
             const double height = point->y - choice.above * fapu_.es;
             if (!(eye_height - height > least_share * fapu_.es)) continue;
-            if (&choice != choices.data()) note("ENS and MNS", "9.15 is missing or above the eyes", listed(choice.ids));
+            if (&choice != choices.data())
+                note("ENS and MNS", "9.15 is missing or above the eyes", listed(choice.ids),
+                     {FapUnit::ens, FapUnit::mns});
             return height;
         }
-        note("ENS and MNS", "no point of the nose is there below the eyes",
-             fmt::format("{} of ES", eyes_to_nose_share));
+        note("ENS and MNS", "no point of the nose is there below the eyes", fmt::format("{} of ES", eyes_to_nose_share),
+             {FapUnit::ens, FapUnit::mns});
         return eye_height - eyes_to_nose_share * fapu_.es;
     }
 
@@ -149,10 +156,12 @@ private:
         for (const Ids& choice : choices) {
             const auto point = middle(points_, choice);
             if (!point || !(nose - point->y > least_share * fapu_.es)) continue;
-            if (&choice != choices.data()) note("MNS", "2.2 is missing or above the nose", listed(choice));
+            if (&choice != choices.data())
+                note("MNS", "2.2 is missing or above the nose", listed(choice), {FapUnit::mns});
             return point->y;
         }
-        note("MNS", "no point of the lips is there below the nose", fmt::format("{} of ES", nose_to_mouth_share));
+        note("MNS", "no point of the lips is there below the nose", fmt::format("{} of ES", nose_to_mouth_share),
+             {FapUnit::mns});
         return nose - nose_to_mouth_share * fapu_.es;
     }
 
@@ -163,10 +172,10 @@ private:
         };
         if (const double outer = width("8.3", "8.4"); outer > least_share * fapu_.es) return outer;
         if (const double inner = width("2.4", "2.5"); inner > least_share * fapu_.es) {
-            note("MW", "8.3 or 8.4 is missing", "2.4 and 2.5, widened by an eighth");
+            note("MW", "8.3 or 8.4 is missing", "2.4 and 2.5, widened by an eighth", {FapUnit::mw});
             return 1.125 * inner;
         }
-        note("MW", "the corners of the mouth are missing", fmt::format("{} of ES", mouth_share));
+        note("MW", "the corners of the mouth are missing", fmt::format("{} of ES", mouth_share), {FapUnit::mw});
         return mouth_share * fapu_.es;
     }
 
@@ -175,10 +184,10 @@ private:
         if (const auto point = middle(points_, {"7.1"})) return *point;
         for (const Ids& ears : {Ids{"10.5", "10.6"}, Ids{"10.7", "10.8"}, Ids{"10.3", "10.4"}})
             if (const auto point = middle(points_, ears)) {
-                note("centre of head turns", "7.1 is missing", listed(ears));
+                note("centre of head turns", "7.1 is missing", listed(ears), {});
                 return *point;
             }
-        note("centre of head turns", "7.1 is missing", "the eyes, 0.8 of ES below and 1.5 of ES behind them");
+        note("centre of head turns", "7.1 is missing", "the eyes, 0.8 of ES below and 1.5 of ES behind them", {});
         return between_eyes + Vec3{0, -0.8 * fapu_.es, -1.5 * fapu_.es};
     }
 
@@ -212,6 +221,14 @@ std::vector<FeaturePoint> points_of_row(const Take& take, std::size_t number) {
     std::vector<FeaturePoint> points;
     for (std::size_t c = 0; c < take.points.size(); ++c)
         if (const Vec3& p = row(take, number)[c]; is_finite(p)) points.push_back({take.points[c], 0, p, {}, 0});
+    return points;
+}
+
+std::vector<FeaturePoint> neutral_points(const Take& take, const NeutralOptions& options) {
+    const std::vector<Vec3> positions = neutral(take, options);
+    std::vector<FeaturePoint> points;
+    for (std::size_t c = 0; c < positions.size(); ++c)
+        if (is_finite(positions[c])) points.push_back({take.points[c], 0, positions[c], {}, 0});
     return points;
 }
 

@@ -20,6 +20,7 @@
 #include "io/gltf_builder.hpp"
 #include "io/gltf_fresh.hpp"
 #include "io/gltf_primitive.hpp"
+#include "io/gltf_reshape.hpp"
 #include "io/gltf_rest_pose.hpp"
 #include "io/gltf_unused.hpp"
 #include "io/rig_extension.hpp"
@@ -152,6 +153,16 @@ bool is_in_place(const GltfDocument& document, std::size_t accessor, std::span<c
     return same;
 }
 
+std::vector<Vec3> placed_vertices(const GltfDocument& document, const json& attributes, const Placement& placement,
+                                  const std::string& pointer) {
+    const std::vector<float> p =
+        read_floats(document, attributes.at("POSITION").get<std::size_t>(), 3, pointer + "/attributes/POSITION");
+    std::vector<Vec3> placed;
+    for (std::size_t v = 0; v < p.size() / 3; ++v)
+        placed.push_back(moved(placement.map(v), {p[3 * v], p[3 * v + 1], p[3 * v + 2]}));
+    return placed;
+}
+
 WrittenPrimitive place_part(GltfDocument& document, const Mesh& mesh, const Part& part, const Standing& standing) {
     const std::string pointer = fmt::format("/meshes/{}/primitives/{}", part.mesh, part.primitive);
     // A copy, since what is appended may move the tree's arrays.
@@ -161,11 +172,14 @@ WrittenPrimitive place_part(GltfDocument& document, const Mesh& mesh, const Part
     WrittenPrimitive written{part.mesh, part.primitive, vertices_of(mesh, part, count)};
     const Placement placement{vertex_maps(standing, {&document, &primitive, pointer, count})};
     const auto positions = std::span(mesh.positions).subspan(part.first_vertex, part.vertex_count);
-    if (!is_in_place(document, attributes["POSITION"].get<std::size_t>(), positions, pointer))
-        attributes["POSITION"] = append_vectors(document, positions, BufferTarget::vertices, Bounds::given);
+    const bool in_place = is_in_place(document, attributes["POSITION"].get<std::size_t>(), positions, pointer);
+    const std::vector<Vec3> placed =
+        in_place ? std::vector<Vec3>() : placed_vertices(document, attributes, placement, pointer);
+    if (!in_place) attributes["POSITION"] = append_vectors(document, positions, BufferTarget::vertices, Bounds::given);
     const bool turns = !placement.keeps();
     if (turns && attributes.contains("NORMAL")) place_normals(document, attributes, placement, pointer);
     if (turns && attributes.contains("TANGENT")) place_tangents(document, attributes, placement, pointer);
+    if (!in_place && is_reshaped(mesh, part, placed)) turn_surface(document, attributes, mesh, part, placed, pointer);
     if (placement.mirrors()) turn_triangles(document, primitive, placement, count, pointer);
     document.json["meshes"][part.mesh]["primitives"][part.primitive] = std::move(primitive);
     return written;

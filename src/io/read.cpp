@@ -18,7 +18,10 @@
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
+#include "mien/io/c3d.hpp"
+#include "mien/io/fap_text.hpp"
 #include "mien/io/marker_map.hpp"
+#include "mien/io/measured_points.hpp"
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
 #include "mien/io/ply.hpp"
@@ -167,11 +170,22 @@ Scene read_scene(const fs::path& path) {
 Take read_take(const fs::path& path) {
     if (has_extension(path, ".trc")) return parsed(path, parse_trc);
     if (has_extension(path, ".csv")) return parsed(path, parse_take_csv);
-    unknown_extension(path, ".trc or .csv");
+    if (has_extension(path, ".c3d")) return parsed(path, parse_c3d);
+    unknown_extension(path, ".trc, .csv or .c3d");
+}
+
+DecodedFaps read_faps(const fs::path& path) {
+    if (has_extension(path, ".fba")) return parsed(path, parse_fba);
+    if (!has_extension(path, ".fap")) unknown_extension(path, ".fap or .fba");
+    return parsed(path, [](std::span<const std::byte> bytes) { return DecodedFaps{parse_fap_text(bytes), {}}; });
 }
 
 PointsFile read_points(const fs::path& path, const Mesh& mesh) {
     return parsed(path, [&](std::span<const std::byte> bytes) { return parse_points(bytes, mesh); });
+}
+
+std::vector<MeasuredPoint> read_measured_points(const fs::path& path) {
+    return parsed(path, parse_measured_points);
 }
 
 Face read_face(const fs::path& head, const fs::path& points) {

@@ -15,9 +15,6 @@ namespace mien {
 
 namespace {
 
-// Squares and single precision of numbers up to here stay finite; no unit of length makes a face larger.
-constexpr double largest_coordinate = 1e15;
-
 double read_coordinate(const Lines& lines, std::string_view point, char axis, std::string_view cell) {
     if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
     const std::optional<double> number = parse_double(cell);
@@ -80,14 +77,18 @@ void check_printable(const Take& take, std::string_view format) {
                                     shown(name)));
 }
 
-void check_names(const Lines& lines, const Take& take) {
+std::string odd_names(const Take& take) {
     std::set<std::string_view> names;
     for (const std::string& name : take.points) {
         if (!is_printable_name(name))
-            lines.fail(fmt::format("expected the name of a point on one line without tabs, found {}", shown(name)));
-        if (!names.insert(name).second)
-            lines.fail(fmt::format("expected each point once, found {} twice", shown(name)));
+            return fmt::format("expected the name of a point on one line without tabs, found {}", shown(name));
+        if (!names.insert(name).second) return fmt::format("expected each point once, found {} twice", shown(name));
     }
+    return {};
+}
+
+void check_names(const Lines& lines, const Take& take) {
+    if (const std::string odd = odd_names(take); !odd.empty()) lines.fail(odd);
 }
 
 }  // namespace mien

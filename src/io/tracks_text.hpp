@@ -15,6 +15,9 @@
 
 namespace mien {
 
+/// Squares and single precision of numbers up to here stay finite; no unit of length makes a face larger.
+inline constexpr double largest_coordinate = 1e15;
+
 /// One sample from its cells. It is lost, all three coordinates, when one cell is empty or NaN, or when every cell is
 /// an exact, unsigned zero, the habit of some capture systems. A planar sample has no z cell. Throws Error at anything
 /// that is no number, infinite or larger than 1e15, naming line, point and axis.
@@ -38,7 +41,10 @@ bool is_printable_name(std::string_view name);
 /// Throws Error when the take's names cannot stand in a line of text: one holds a tab or the end of a line.
 void check_printable(const Take& take, std::string_view format);
 
-/// Throws Error when a name comes twice, is empty or could not be written again.
+/// What is wrong with the names of a take: one comes twice, is empty or could not be written again. Empty when nothing.
+std::string odd_names(const Take& take);
+
+/// Throws Error when something is.
 void check_names(const Lines& lines, const Take& take);
 
 }  // namespace mien

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
@@ -299,6 +300,21 @@ TEST(Faps, OneRowIsOneFrame) {
     const FapStream stream = to_faps(take, fapu);
     ASSERT_EQ(stream.frames.size(), 1U);
     EXPECT_EQ(stream.frames[0].value[2], 77);
+}
+
+TEST(Faps, AStreamTellsThePointsThatItMovesAndThoseOfPartsThatItLeavesAlone) {
+    const Fapu fapu = measure_fapu(neutral_points());
+    const auto told = [&](std::initializer_list<std::pair<int, int>> values) {
+        return told_points(one_frame(values), fapu);
+    };
+    using testing::Contains, testing::Not;
+    const auto jaw = told({{3, 0}});
+    for (const char* point : {"2.1", "3.1", "4.3", "5.1", "9.3"}) EXPECT_THAT(jaw, Contains(point));
+    // Beside the chin the skin carries the lips, of both contours; points without a parameter it always carries.
+    for (const char* point : {"2.3", "2.10", "8.2", "8.3", "3.7", "11.4"}) EXPECT_THAT(jaw, Not(Contains(point)));
+    const auto lid = told({{19, 100}, {53, 1}});
+    for (const char* point : {"3.1", "8.3"}) EXPECT_THAT(lid, Contains(point));
+    for (const char* point : {"3.3", "3.2", "8.4", "2.1"}) EXPECT_THAT(lid, Not(Contains(point)));
 }
 
 TEST(Faps, AMirroredPerformanceHasMirroredParameters) {

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <initializer_list>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "algorithms/fap_face.hpp"
@@ -141,6 +143,32 @@ TEST(MeasureFapu, LostSamplesOfARowAreNoPoints) {
     EXPECT_EQ(points[0].id, "8.4");
     EXPECT_EQ(points[0].position, (Vec3{7, 8, 9}));
     EXPECT_THROW(points_of_row(take, 2), Error);
+}
+
+TEST(Fapu, UnitsThatComeFromOtherPointsAreNamed) {
+    const auto uncertain = [](std::initializer_list<std::string_view> missing) {
+        std::vector<FeaturePoint> points;
+        for (const FeaturePoint& point : neutral_points())
+            if (std::find(missing.begin(), missing.end(), point.id) == missing.end()) points.push_back(point);
+        return measure_fapu(points).uncertain;
+    };
+    EXPECT_EQ(uncertain({}), std::vector<FapUnit>{});
+    EXPECT_EQ(uncertain({"3.5"}), std::vector<FapUnit>{});  // the middles of the corners do as well
+    EXPECT_EQ(uncertain({"3.5", "3.7"}), std::vector<FapUnit>{FapUnit::es});
+    EXPECT_EQ(uncertain({"9.15"}), (std::vector<FapUnit>{FapUnit::ens, FapUnit::mns}));
+    EXPECT_EQ(uncertain({"8.3"}), std::vector<FapUnit>{FapUnit::mw});
+    EXPECT_EQ(uncertain({"3.1", "3.4"}), std::vector<FapUnit>{FapUnit::irisd});
+}
+
+TEST(Fapu, TheNeutralPointsOfATakeAreTheMeanOfItsNeutralRows) {
+    Take take;
+    take.points = {"8.3", "8.4", "2.1"};
+    take.times = {0, 1};
+    take.samples = {{1, 2, 3}, {0, 0, 0}, lost_sample, {3, 2, 3}, lost_sample, lost_sample};
+    const std::vector<FeaturePoint> points = neutral_points(take, {.row = 0, .rows = 2});
+    ASSERT_EQ(points.size(), 2U);
+    EXPECT_EQ(points[0].position, (Vec3{2, 2, 3}));
+    EXPECT_EQ(points[1].id, "8.4");
 }
 
 }  // namespace

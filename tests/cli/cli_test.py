@@ -15,7 +15,7 @@ import program
 from program import HEAD, MAP, POINTS, SHARED, TAKE, run
 
 ROWS = 24
-VERBS = ("animate", "inspect", "points", "rig", "retarget", "deform")
+VERBS = ("animate", "inspect", "points", "rig", "retarget", "deform", "faps", "play", "encode", "decode", "morph")
 
 
 class CommandLine(unittest.TestCase):

@@ -146,6 +146,21 @@ TEST(Base, normals_and_tangents_stay_square_to_each_other_under_uneven_scale) {
     EXPECT_EQ(t[3], 1);
 }
 
+TEST(Base, a_head_that_was_reshaped_has_its_normals_turned_with_its_surface) {
+    Mesh mesh = source_head({1, 1, 1});
+    const std::vector<Vec3> before =
+        played::vectors(base_document(mesh).document, attributes(base_document(mesh).document)["NORMAL"]);
+    for (Vec3f& p : mesh.positions) p = {-p.y, p.x, p.z};  // a quarter turn about z
+    const BaseDocument base = base_document(mesh);
+    const std::vector<Vec3> after = played::vectors(base.document, attributes(base.document)["NORMAL"]);
+    ASSERT_EQ(after.size(), before.size());
+    // The triangle faces x and then y; what the normals lean aside from it leans with it.
+    for (std::size_t v = 0; v < after.size(); ++v)
+        EXPECT_LT(distance(after[v], {-before[v].y, before[v].x, before[v].z}), 1e-6);
+    EXPECT_FALSE(attributes(base.document).contains("TANGENT"));
+    EXPECT_THAT(played::numbers(base.document, attributes(base.document)["TEXCOORD_0"]), ElementsAre(0, 0, 1, 0, 0, 1));
+}
+
 TEST(Base, a_mirroring_node_turns_triangles_round_and_flips_the_hand_of_tangents) {
     const BaseDocument base = base_document(source_head({-1, 1, 1}));
     keep("mirrored", base.document);

@@ -11,6 +11,7 @@
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
+#include "mien/io/fap_text.hpp"
 #include "mien/io/write.hpp"
 
 namespace mien {
@@ -102,7 +103,7 @@ TEST_F(Read, an_unknown_extension_is_refused_before_the_file_is_opened) {
         EXPECT_EQ(found.kind, Error::Kind::input) << name;
         EXPECT_THAT(found.sentence, HasSubstr("expected a file that ends in .glb, .gltf, .obj, .off or .ply"));
     }
-    EXPECT_THAT(refusal([&] { read_take(folder_ / "a.obj"); }).sentence, HasSubstr(".trc or .csv"));
+    EXPECT_THAT(refusal([&] { read_take(folder_ / "a.obj"); }).sentence, HasSubstr(".trc, .csv or .c3d"));
     EXPECT_THAT(refusal([&] { read_marker_map(folder_ / "a.txt"); }).sentence, HasSubstr(".csv or .json"));
     EXPECT_THAT(refusal([&] { read_rig(folder_ / "a.gltf"); }).sentence, HasSubstr(".glb"));
 }
@@ -138,6 +139,16 @@ TEST_F(Read, takes_faces_and_marker_maps_are_what_was_written) {
     EXPECT_EQ(face.points.at(0).position, (Vec3{0, 1, 0}));
     EXPECT_EQ(vertex_count(face.mesh), 3U);
     EXPECT_EQ(read_marker_map(file("m.CSV", "chin,2.1\n")).at(0).to, "2.1");
+}
+
+TEST_F(Read, parameters_are_read_as_text_or_stream_by_their_extension) {
+    FapStream stream;
+    stream.frames.emplace_back().mask.set(2);
+    stream.frames[0].value[2] = 40;
+    const auto text = file("a.FAP", format_fap_text(stream)), bits = file("a.fba", format_fba(stream).bytes);
+    EXPECT_EQ(read_faps(text).stream.frames, stream.frames);
+    EXPECT_EQ(read_faps(bits).stream.frames, stream.frames);
+    EXPECT_THROW(read_faps(file("a.txt", "2.1 a 25 0")), Error);
 }
 
 TEST_F(Read, a_head_is_read_without_a_picture_that_is_not_there) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "mien/algorithms/tracks.hpp"
 #include "mien/face.hpp"
 #include "mien/fap.hpp"
 #include "mien/take.hpp"
@@ -29,5 +30,9 @@ Fapu measure_fapu(const Face& face);
 /// The points of one row of a take, for measuring a performer; lost ones are left out. Throws Error if there is no such
 /// row.
 std::vector<FeaturePoint> points_of_row(const Take& take, std::size_t row);
+
+/// The points of its neutral face; those that are never seen are left out. Throws Error if the rows are not in the
+/// take.
+std::vector<FeaturePoint> neutral_points(const Take& take, const NeutralOptions& neutral);
 
 }  // namespace mien

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "mien/face.hpp"
+#include "mien/io/fba.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
+#include "mien/measured_point.hpp"
 #include "mien/scene.hpp"
 #include "mien/take.hpp"
 
@@ -24,11 +26,17 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// others.
 Scene read_scene(const std::filesystem::path& path);
 
-/// Reads a take by its extension: .trc .csv.
+/// Reads a take by its extension: .trc .csv .c3d.
 Take read_take(const std::filesystem::path& path);
+
+/// Reads face animation parameters by their extension: .fap (text) .fba (bitstream).
+DecodedFaps read_faps(const std::filesystem::path& path);
 
 /// Reads feature points for a mesh.
 PointsFile read_points(const std::filesystem::path& path, const Mesh& mesh);
+
+/// Reads measured feature points (.json).
+std::vector<MeasuredPoint> read_measured_points(const std::filesystem::path& path);
 
 /// Reads a head with its feature points.
 Face read_face(const std::filesystem::path& head, const std::filesystem::path& points);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fap_files.hpp"
+#include "outputs.hpp"
+
+#include "mien/algorithms/complete.hpp"
+#include "mien/algorithms/faps.hpp"
+#include "mien/algorithms/fapu.hpp"
+#include "mien/algorithms/resolve_faps.hpp"
+#include "mien/error.hpp"
+#include "mien/io/read.hpp"
+
+namespace mien::cli {
+
+namespace {
+
+struct Play {
+    std::filesystem::path rig;
+    std::filesystem::path faps;
+    OutputFlags output;
+};
+
+Take told(const Take& take, const std::vector<std::string>& points) {
+    std::vector<Rename> names;
+    for (const std::string& point : points) names.push_back({point, point});
+    return rename_points(take, names);
+}
+
+// Points of which the stream says nothing are carried by the skin between the others.
+void play(Call& call, const Play& flags) {
+    check_output(flags.output.output, {flags.rig, flags.faps}, call.flags);
+    RigFile file = read_rig(flags.rig);
+    const Face face{file.mesh, file.rig.points};
+    const Fapu fapu = measure_fapu(face);
+    const FapStream stream = resolve_faps(load_faps(flags.faps, call.report));
+    const std::vector<std::string> points = told_points(stream, fapu);
+    if (points.empty())
+        throw Error(flags.faps.string() + ": expected parameters that move a point of this rig, found none");
+    const Take take = told(to_take(stream, fapu), points);
+    call.report["rig"] = {{"file", flags.rig.filename().string()}, {"points", file.rig.points.size()}};
+    call.report["units"] = {
+        {"irisd", fapu.irisd}, {"es", fapu.es}, {"ens", fapu.ens}, {"mns", fapu.mns}, {"mw", fapu.mw}};
+    if (!fapu.estimated.empty()) call.report["units_estimated"] = fapu.estimated;
+    call.report["points_carried_by_the_skin"] = missing_points(face, take);
+    if (!take.head.empty() && !flags.output.head_motion)
+        call.report["head_turns"] = "in the stream; --head-motion plays them";
+    write_performance(call, flags.output, file.mesh, file.rig, complete(face, take));
+}
+
+}  // namespace
+
+void add_play(CLI::App& app, Call& call) {
+    const auto flags = std::make_shared<Play>();
+    CLI::App* verb =
+        add_verb(app, call, "play", "Plays face animation parameters on a rigged face, in the face's own MPEG-4 units.",
+                 "mien play kate-rig.glb smile.fap -o kate-smiles.glb", [&call, flags] { play(call, *flags); });
+    verb->add_option("rig", flags->rig, "the rigged face (.glb written by mien rig)")->required();
+    verb->add_option("faps", flags->faps, "the parameters: .fap .fba")->required();
+    add_output_flags(*verb, flags->output);
+}
+
+}  // namespace mien::cli
