@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+// Rigs from example shapes (docs/methods.md, "From example shapes"). `left_out`: mean error on shapes that the rig has
+// seen neither of themselves nor of their mirror partners; `mixes`: on random mixes of the shapes it has seen; `single`
+// and `free`: of a rig from another head's shapes and of the data-free one; `flipped`: percent of moving triangles.
+
+#include <benchmark/benchmark.h>
+#include <map>
+#include <string>
+
+#include "prior_figures.hpp"
+
+#include "mien/algorithms/rig_biharmonic.hpp"
+
+namespace mien {
+namespace {
+
+using figures::Figures;
+
+const figures::Subject& subject() {
+    static const figures::Subject read = figures::read_subject();
+    return read;
+}
+const Face& other() {
+    static const Face read = figures::read_other();
+    return read;
+}
+
+Face points_of(const std::string& set) {
+    if (set == "suggested") return figures::with_suggested_points(figures::with_set(subject(), "all_skin"));
+    return figures::with_set(subject(), set);
+}
+
+// MakeHuman's units on the ICT face, and the other way round.
+const std::vector<MorphTarget>& units() {
+    static const std::vector<MorphTarget> all = carry_shapes(other(), other().mesh.morph_targets, subject().face);
+    return all;
+}
+const std::vector<MorphTarget>& shapes_on_other() {
+    static const std::vector<MorphTarget> all =
+        carry_shapes(subject().face, subject().face.mesh.morph_targets, other());
+    return all;
+}
+
+bool is_there(benchmark::State& state) {
+    const bool there = std::filesystem::exists(figures::folder()) && std::filesystem::exists(figures::other_folder());
+    if (!there) state.SkipWithError("no heads beside the project");
+    return there;
+}
+
+struct Way {
+    const char* name;
+    bool helped;
+    PriorOptions options;
+};
+constexpr Way ways[] = {
+    {"all points", true, {true, 0}},
+    {"8 points", true, {true, 8}},
+    {"8 points, linear", true, {false, 8}},
+    {"8 points, no helper", false, {true, 8}},
+};
+
+void own_shapes(benchmark::State& state, const Way& way, const char* set) {
+    if (!is_there(state)) return;
+    const Face face = points_of(set);
+    const std::vector<MorphTarget> helper = way.helped ? units() : std::vector<MorphTarget>();
+    Figures left_out;
+    for (auto _ : state)
+        left_out = figures::leave_one_out(face, [&](const std::vector<MorphTarget>& kept) {
+            return rig_prior(face, {kept, helper}, way.options);
+        });
+    const Rig rig = rig_prior(face, {face.mesh.morph_targets, helper}, way.options);
+    const Figures mixed = figures::mixes(rig, face, 200);
+    state.counters["left_out"] = left_out.error;
+    state.counters["flipped"] = 100 * left_out.flipped;
+    state.counters["mixes"] = mixed.error;
+    state.counters["mixes_flipped"] = 100 * mixed.flipped;
+}
+
+void carried(benchmark::State& state, const Face& face, const std::vector<MorphTarget>& shapes) {
+    Rig rig;
+    for (auto _ : state) rig = rig_prior(face, {{}, shapes}, {});
+    const Rig free = rig_biharmonic(face);
+    state.counters["single"] = figures::singles(rig, face).error;
+    state.counters["mixes"] = figures::mixes(rig, face, 100).error;
+    state.counters["free_single"] = figures::singles(free, face).error;
+    state.counters["free_mixes"] = figures::mixes(free, face, 100).error;
+    state.counters["flipped"] = 100 * figures::singles(rig, face).flipped;
+}
+
+void to_ict(benchmark::State& state, const char* set) {
+    if (is_there(state)) carried(state, points_of(set), units());
+}
+
+void from_ict(benchmark::State& state, const char* set) {
+    if (!is_there(state)) return;
+    const auto ids = subject().sets.at(set).get<std::vector<std::string>>();
+    carried(state, with_points(other(), ids), shapes_on_other());
+}
+
+void frame(benchmark::State& state, bool one_sided) {
+    if (!is_there(state)) return;
+    const Face face = points_of("all_skin");
+    const Rig rig = rig_prior(face, {face.mesh.morph_targets, {}}, {one_sided, 8});
+    std::vector<Vec3f> points, positions(vertex_count(face.mesh));
+    const std::vector<Vec3f> moves = figures::dense(face.mesh.morph_targets.back(), positions.size());
+    for (const FeaturePoint& point : face.points) points.push_back(moves[point.vertex]);
+    for (auto _ : state) {
+        deform(rig, points, positions);
+        benchmark::DoNotOptimize(positions.data());
+    }
+}
+
+const bool registered = [] {
+    using benchmark::kMillisecond;
+    for (const char* set : {"all_skin", "vicon27", "dutreve21", "suggested"}) {
+        for (const Way& way : ways)
+            benchmark::RegisterBenchmark((std::string("prior/own/") + set + "/" + way.name).c_str(), own_shapes, way,
+                                         set)
+                ->Unit(kMillisecond)
+                ->Iterations(1);
+        benchmark::RegisterBenchmark((std::string("prior/to ICT/") + set).c_str(), to_ict, set)
+            ->Unit(kMillisecond)
+            ->Iterations(1);
+    }
+    for (const char* set : {"all_skin", "vicon27", "dutreve21"})
+        benchmark::RegisterBenchmark((std::string("prior/from ICT/") + set).c_str(), from_ict, set)
+            ->Unit(kMillisecond)
+            ->Iterations(1);
+    benchmark::RegisterBenchmark("prior/frame/one-sided", frame, true);
+    benchmark::RegisterBenchmark("prior/frame/linear", frame, false);
+    return true;
+}();
+
+}  // namespace
+}  // namespace mien
