@@ -25,6 +25,12 @@ constexpr Way ways[] = {
     {"biharmonic, 8 points a vertex", "biharmonic", {Reading::remedied, 8}},
     {"surface distance, paper", "surface-distance", {Reading::paper, 0}},
     {"surface distance, remedied", "surface-distance", {Reading::remedied, 0}},
+    {"ellipsoid, paper", "ellipsoid", {Reading::paper, 0}},
+    {"ellipsoid, remedied", "ellipsoid", {Reading::remedied, 0}},
+    {"rbf, all points", "rbf", {Reading::remedied, 0}},
+    {"rbf, 8 points a vertex", "rbf", {Reading::remedied, 8}},
+    {"rbf along the surface, all points", "rbf-surface", {Reading::remedied, 0}},
+    {"rbf along the surface, 8 points a vertex", "rbf-surface", {Reading::remedied, 8}},
 };
 constexpr const char* sets[] = {"all_skin", "vicon27", "dutreve21"};
 

@@ -31,27 +31,43 @@ struct Figures {
     double flipped = 0;  ///< share of the moving triangles whose normal opposes the true one
 };
 
-/// The head of the ICT face model with its 27 shapes, and the named sets of its points.
+/// A head whose shapes are known, and the named sets of its points.
 struct Subject {
     Face face;
     nlohmann::json sets;
+    std::size_t skin = 0;  ///< how many of its vertices, from the first, are skin: only those are compared
 };
 
-inline std::filesystem::path folder() {
-    return std::filesystem::path(MIEN_SHARED) / "data" / "ict";
+inline std::filesystem::path folder(const char* head = "ict") {
+    return std::filesystem::path(MIEN_SHARED) / "data" / head;
 }
 
-inline std::string contents(const std::string& name) {
-    std::ifstream file(folder() / name, std::ios::binary);
+inline std::string contents(const std::string& name, const char* head = "ict") {
+    std::ifstream file(folder(head) / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-inline Subject read_subject() {
-    const std::string head = contents("ict_face.glb"), points = contents("feature_points.json");
+inline Face read_face(const std::string& head, const std::string& points) {
     const auto none_beside = [](std::string_view) { return std::vector<std::byte>(); };
-    Subject subject{{parse_gltf(std::as_bytes(std::span(head)), none_beside), {}},
-                    nlohmann::json::parse(points).at("_sets")};
-    subject.face.points = parse_points(std::as_bytes(std::span(points)), subject.face.mesh).points;
+    Face face{parse_gltf(std::as_bytes(std::span(head)), none_beside), {}};
+    face.points = parse_points(std::as_bytes(std::span(points)), face.mesh).points;
+    return face;
+}
+
+/// The head of the ICT face model with its 27 shapes.
+inline Subject read_subject() {
+    const std::string points = contents("feature_points.json");
+    Subject subject{read_face(contents("ict_face.glb"), points), nlohmann::json::parse(points).at("_sets")};
+    subject.skin = vertex_count(subject.face.mesh);
+    return subject;
+}
+
+/// A head of MakeHuman with its 34 shapes, by the same sets: eye sockets and mouth are closed pockets.
+inline Subject read_pocket_subject() {
+    const char* folder = "mh-caucasian";
+    Subject subject{read_face(contents("mh-caucasian-female.glb", folder), contents("points-glb.json", folder)),
+                    nlohmann::json::parse(contents("feature_points.json")).at("_sets")};
+    subject.skin = subject.face.mesh.parts.front().vertex_count;
     return subject;
 }
 
@@ -66,10 +82,10 @@ inline std::vector<Vec3f> dense(const MorphTarget& shape, std::size_t vertices) 
     return moves;
 }
 
-inline double root_mean_square(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+inline double root_mean_square(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b, std::size_t count) {
     double sum = 0;
-    for (std::size_t v = 0; v < a.size(); ++v) sum += dot(to_double(a[v] - b[v]), to_double(a[v] - b[v]));
-    return std::sqrt(sum / static_cast<double>(a.size()));
+    for (std::size_t v = 0; v < count; ++v) sum += dot(to_double(a[v] - b[v]), to_double(a[v] - b[v]));
+    return std::sqrt(sum / static_cast<double>(count));
 }
 
 inline Vec3 normal(const std::vector<Vec3f>& p, std::span<const std::uint32_t> corners) {
@@ -106,7 +122,8 @@ inline Figures measure(const Rig& rig, const Subject& subject) {
         for (std::size_t v = 0; v < truth.size(); ++v) truth[v] += moves[v];
         for (const FeaturePoint& point : rig.points) points.push_back(moves[point.vertex]);
         deform(rig, points, found);
-        figures.error += root_mean_square(found, truth) / root_mean_square(truth, mesh.positions) /
+        figures.error += root_mean_square(found, truth, subject.skin) /
+                         root_mean_square(truth, mesh.positions, subject.skin) /
                          static_cast<double>(mesh.morph_targets.size());
         count(mesh, truth, found, least, triangles);
     }

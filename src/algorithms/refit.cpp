@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tbb/parallel_for.h>
 
 namespace mien {
 
@@ -48,6 +49,32 @@ std::vector<KeptWeight> refit_row(const Eigen::VectorXd& row, const Eigen::Matri
     std::vector<KeptWeight> kept;
     for (Eigen::Index i = 0; i < n; ++i) kept.push_back({columns[i], weights[i]});
     return kept;
+}
+
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& energy) {
+    const Eigen::Index n = energy.rows();
+    const Eigen::MatrixXd regular =
+        (energy + energy.transpose()) / 2 + 1e-6 * energy.diagonal().mean() * Eigen::MatrixXd::Identity(n, n);
+    return regular.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+}
+
+WeightRows refit_rows(std::size_t place_count, const Movers& movers, std::span<const std::uint32_t> places,
+                      const Eigen::MatrixXd& weights, const Eigen::MatrixXd& covariance, std::uint32_t influences) {
+    const auto keep = influences == 0 ? static_cast<std::uint32_t>(movers.points.size()) : influences;
+    std::vector<std::vector<KeptWeight>> kept(place_count);
+    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+        kept[places[i]] = refit_row(weights.row(static_cast<Eigen::Index>(i)).transpose(), covariance, keep);
+    });
+    for (std::uint32_t m = 0; m < movers.places.size(); ++m) kept[movers.places[m]] = {{m, 1}};
+    WeightRows rows;
+    for (const auto& row : kept) {
+        for (const KeptWeight& entry : row) {
+            rows.points.push_back(movers.points[entry.column]);
+            rows.weights.push_back(entry.weight);
+        }
+        rows.starts.push_back(static_cast<std::uint32_t>(rows.points.size()));
+    }
+    return rows;
 }
 
 }  // namespace mien

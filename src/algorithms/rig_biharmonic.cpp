@@ -7,15 +7,14 @@
 
 #include "mien/algorithms/rig_biharmonic.hpp"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <optional>
 #include <vector>
 
 #include "algorithms/island.hpp"
 #include "algorithms/laplacian.hpp"
 #include "algorithms/movers.hpp"
+#include "algorithms/pockets.hpp"
 #include "algorithms/refit.hpp"
 #include "algorithms/sparse_solve.hpp"
 
@@ -57,15 +56,6 @@ struct SheetWeights {
     Eigen::MatrixXd covariance;       // movers x movers
 };
 
-// E is singular when nothing is far: a rigid shift then costs nothing. A little of the identity keeps its inverse,
-// which still gives shifts by far the largest variance.
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& e) {
-    const Eigen::Index n = e.rows();
-    const Eigen::MatrixXd regular =
-        (e + e.transpose()) / 2 + 1e-6 * e.diagonal().mean() * Eigen::MatrixXd::Identity(n, n);
-    return regular.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-}
-
 SheetWeights solve_sheet(const Sparse& q, const std::vector<Role>& role, const Movers& movers) {
     SheetWeights sheet;
     for (std::uint32_t p = 0; p < role.size(); ++p)
@@ -79,25 +69,34 @@ SheetWeights solve_sheet(const Sparse& q, const std::vector<Role>& role, const M
     return sheet;
 }
 
-// The rows of all places: {1} at a mover, nothing at what keeps still.
-WeightRows rows_of(const SheetWeights& sheet, const std::vector<Role>& role, const Movers& movers,
-                   std::uint32_t influences) {
-    const auto keep = influences == 0 ? static_cast<std::uint32_t>(movers.points.size()) : influences;
-    std::vector<std::vector<KeptWeight>> kept(role.size());
-    tbb::parallel_for(std::size_t{0}, sheet.free.size(), [&](std::size_t i) {
-        kept[sheet.free[i]] =
-            refit_row(sheet.weights.row(static_cast<Eigen::Index>(i)).transpose(), sheet.covariance, keep);
-    });
-    for (std::uint32_t m = 0; m < movers.places.size(); ++m) kept[movers.places[m]] = {{m, 1}};
-    WeightRows rows;
-    for (const auto& row : kept) {
-        for (const KeptWeight& entry : row) {
-            rows.points.push_back(movers.points[entry.column]);
-            rows.weights.push_back(entry.weight);
-        }
-        rows.starts.push_back(static_cast<std::uint32_t>(rows.points.size()));
-    }
-    return rows;
+// The skin that is solved, and what follows its rim.
+struct SolvedSkin {
+    Mesh solved;
+    std::vector<std::uint32_t> pocket;  // places
+};
+
+SolvedSkin skin_of(const Face& face, const Weld& weld, const std::vector<bool>& solved, bool cut_pockets) {
+    if (!cut_pockets) return {face.mesh, {}};
+    const std::vector<bool> is_pocket = closed_pockets(face, weld, solved);
+    SolvedSkin skin;
+    for (std::uint32_t p = 0; p < is_pocket.size(); ++p)
+        if (is_pocket[p]) skin.pocket.push_back(p);
+    skin.solved = skin.pocket.empty() ? face.mesh : without_places(face.mesh, weld, is_pocket);
+    return skin;
+}
+
+// Adds the rows of the pockets to those of the sheet.
+void carry_pockets(SheetWeights& sheet, const Mesh& mesh, const Weld& weld, const Movers& movers,
+                   const std::vector<std::uint32_t>& pocket) {
+    if (pocket.empty()) return;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(std::ssize(weld.vertex), std::ssize(movers.places));
+    all(sheet.free, Eigen::all) = sheet.weights;
+    for (Eigen::Index m = 0; m < all.cols(); ++m) all(movers.places[static_cast<std::size_t>(m)], m) = 1;
+    const Eigen::MatrixXd carried = fill_pockets(mesh, weld, pocket, all);
+    const Eigen::Index free = sheet.weights.rows();
+    sheet.weights.conservativeResize(free + carried.rows(), Eigen::NoChange);
+    sheet.weights.bottomRows(carried.rows()) = carried;
+    sheet.free.insert(sheet.free.end(), pocket.begin(), pocket.end());
 }
 
 void check_options(const BiharmonicOptions& options) {
@@ -111,11 +110,16 @@ void check_options(const BiharmonicOptions& options) {
 Rig rig_biharmonic(const Face& face, const BiharmonicOptions& options) {
     check_options(options);
     const double scale = face_scale(face);
-    return rig_by_axes("biharmonic", face, [&](const Weld& weld, const std::vector<bool>&, const Movers& movers) {
-        const std::vector<Role> role = roles(face.mesh, weld, movers, options.far_radius * scale);
-        const Sparse q = energy(laplacian(face.mesh, weld), options.tension / (scale * scale));
-        return rows_of(solve_sheet(q, role, movers), role, movers, options.influences);
-    });
+    std::optional<SolvedSkin> skin;  // the same for all axes
+    return rig_by_axes(
+        "biharmonic", face, [&](const Weld& weld, const std::vector<bool>& solved, const Movers& movers) {
+            if (!skin) skin = skin_of(face, weld, solved, options.cut_pockets);
+            const std::vector<Role> role = roles(skin->solved, weld, movers, options.far_radius * scale);
+            const Sparse q = energy(laplacian(skin->solved, weld), options.tension / (scale * scale));
+            SheetWeights sheet = solve_sheet(q, role, movers);
+            carry_pockets(sheet, face.mesh, weld, movers, skin->pocket);
+            return refit_rows(role.size(), movers, sheet.free, sheet.weights, sheet.covariance, options.influences);
+        });
 }
 
 }  // namespace mien

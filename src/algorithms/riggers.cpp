@@ -10,6 +10,8 @@
 #include <string>
 
 #include "mien/algorithms/rig_biharmonic.hpp"
+#include "mien/algorithms/rig_ellipsoid.hpp"
+#include "mien/algorithms/rig_rbf.hpp"
 #include "mien/algorithms/rig_surface_distance.hpp"
 #include "mien/error.hpp"
 
@@ -25,6 +27,17 @@ constexpr std::array table{
     Rigger{"surface-distance", "points move what is near them along the surface (Kshirsagar et al.)",
            [](const Face& face, const RigOptions& options) {
                return rig_surface_distance(face, {.reading = options.reading});
+           }},
+    Rigger{
+        "ellipsoid", "points move what lies in an ellipsoid round them (Dutreve et al.)",
+        [](const Face& face, const RigOptions& options) { return rig_ellipsoid(face, {.reading = options.reading}); }},
+    Rigger{"rbf", "points are interpolated through space, straight across mouth and lids",
+           [](const Face& face, const RigOptions& options) {
+               return rig_rbf(face, {RbfRigOptions::Kernel::linear, options.influences});
+           }},
+    Rigger{"rbf-surface", "points are interpolated along the surface and fade with the way",
+           [](const Face& face, const RigOptions& options) {
+               return rig_rbf(face, {RbfRigOptions::Kernel::surface, options.influences});
            }},
 };
 

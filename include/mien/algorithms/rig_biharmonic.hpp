@@ -17,6 +17,8 @@ struct BiharmonicOptions {
     double far_radius = 1.6;
     /// Points kept per vertex, refitted rather than cut; 0 keeps all. 4 to 16.
     std::uint32_t influences = 8;
+    /// Eye sockets and mouth bags that are one surface with the face are left out of the solve and follow their rims.
+    bool cut_pockets = true;
 };
 
 /// Builds a rig in which the skin bends like a thin elastic sheet that the feature points hold: smooth everywhere, no
