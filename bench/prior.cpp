@@ -11,7 +11,9 @@
 
 #include "prior_figures.hpp"
 
+#include "mien/algorithms/carry_shapes.hpp"
 #include "mien/algorithms/rig_biharmonic.hpp"
+#include "mien/algorithms/rig_prior.hpp"
 
 namespace mien {
 namespace {
@@ -22,29 +24,26 @@ const figures::Subject& subject() {
     static const figures::Subject read = figures::read_subject();
     return read;
 }
-const Face& other() {
-    static const Face read = figures::read_other();
+const figures::Subject& other() {
+    static const figures::Subject read = figures::read_pocket_subject();
     return read;
-}
-
-Face points_of(const std::string& set) {
-    if (set == "suggested") return figures::with_suggested_points(figures::with_set(subject(), "all_skin"));
-    return figures::with_set(subject(), set);
 }
 
 // MakeHuman's units on the ICT face, and the other way round.
 const std::vector<MorphTarget>& units() {
-    static const std::vector<MorphTarget> all = carry_shapes(other(), other().mesh.morph_targets, subject().face);
+    static const std::vector<MorphTarget> all =
+        carry_shapes(other().face, other().face.mesh.morph_targets, subject().face);
     return all;
 }
 const std::vector<MorphTarget>& shapes_on_other() {
     static const std::vector<MorphTarget> all =
-        carry_shapes(subject().face, subject().face.mesh.morph_targets, other());
+        carry_shapes(subject().face, subject().face.mesh.morph_targets, other().face);
     return all;
 }
 
 bool is_there(benchmark::State& state) {
-    const bool there = std::filesystem::exists(figures::folder()) && std::filesystem::exists(figures::other_folder());
+    const bool there =
+        std::filesystem::exists(figures::folder()) && std::filesystem::exists(figures::folder("mh-caucasian"));
     if (!there) state.SkipWithError("no heads beside the project");
     return there;
 }
@@ -63,45 +62,44 @@ constexpr Way ways[] = {
 
 void own_shapes(benchmark::State& state, const Way& way, const char* set) {
     if (!is_there(state)) return;
-    const Face face = points_of(set);
+    const figures::Subject asked = figures::with_points_of(subject(), set);
+    const Face& face = asked.face;
     const std::vector<MorphTarget> helper = way.helped ? units() : std::vector<MorphTarget>();
     Figures left_out;
     for (auto _ : state)
-        left_out = figures::leave_one_out(face, [&](const std::vector<MorphTarget>& kept) {
+        left_out = figures::leave_one_out(asked, [&](const std::vector<MorphTarget>& kept) {
             return rig_prior(face, {kept, helper}, way.options);
         });
     const Rig rig = rig_prior(face, {face.mesh.morph_targets, helper}, way.options);
-    const Figures mixed = figures::mixes(rig, face, 200);
+    const Figures mixed = figures::mixes(rig, asked, 200);
     state.counters["left_out"] = left_out.error;
     state.counters["flipped"] = 100 * left_out.flipped;
     state.counters["mixes"] = mixed.error;
     state.counters["mixes_flipped"] = 100 * mixed.flipped;
 }
 
-void carried(benchmark::State& state, const Face& face, const std::vector<MorphTarget>& shapes) {
+void carried(benchmark::State& state, const figures::Subject& asked, const std::vector<MorphTarget>& shapes) {
     Rig rig;
-    for (auto _ : state) rig = rig_prior(face, {{}, shapes}, {});
-    const Rig free = rig_biharmonic(face);
-    state.counters["single"] = figures::singles(rig, face).error;
-    state.counters["mixes"] = figures::mixes(rig, face, 100).error;
-    state.counters["free_single"] = figures::singles(free, face).error;
-    state.counters["free_mixes"] = figures::mixes(free, face, 100).error;
-    state.counters["flipped"] = 100 * figures::singles(rig, face).flipped;
+    for (auto _ : state) rig = rig_prior(asked.face, {{}, shapes}, {});
+    const Rig free = rig_biharmonic(asked.face);
+    state.counters["single"] = figures::singles(rig, asked).error;
+    state.counters["mixes"] = figures::mixes(rig, asked, 100).error;
+    state.counters["free_single"] = figures::singles(free, asked).error;
+    state.counters["free_mixes"] = figures::mixes(free, asked, 100).error;
+    state.counters["flipped"] = 100 * figures::singles(rig, asked).flipped;
 }
 
 void to_ict(benchmark::State& state, const char* set) {
-    if (is_there(state)) carried(state, points_of(set), units());
+    if (is_there(state)) carried(state, figures::with_points_of(subject(), set), units());
 }
 
 void from_ict(benchmark::State& state, const char* set) {
-    if (!is_there(state)) return;
-    const auto ids = subject().sets.at(set).get<std::vector<std::string>>();
-    carried(state, with_points(other(), ids), shapes_on_other());
+    if (is_there(state)) carried(state, figures::with_points_of(other(), set), shapes_on_other());
 }
 
 void frame(benchmark::State& state, bool one_sided) {
     if (!is_there(state)) return;
-    const Face face = points_of("all_skin");
+    const Face face = figures::with_set(subject(), "all_skin");
     const Rig rig = rig_prior(face, {face.mesh.morph_targets, {}}, {one_sided, 8});
     std::vector<Vec3f> points, positions(vertex_count(face.mesh));
     const std::vector<Vec3f> moves = figures::dense(face.mesh.morph_targets.back(), positions.size());

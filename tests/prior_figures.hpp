@@ -13,10 +13,6 @@
 
 #include "rig_figures.hpp"
 
-#include "mien/algorithms/carry_shapes.hpp"
-#include "mien/algorithms/rig_prior.hpp"
-#include "mien/io/read.hpp"
-
 namespace mien::figures {
 
 /// "browDown" of "browDown_L": what a shape and its mirror partner share.
@@ -32,13 +28,15 @@ struct Sum {
     Triangles triangles;
     std::size_t count = 0;
 };
-inline void add(Sum& sum, const Rig& rig, const Face& face, const std::vector<Vec3f>& moves) {
+inline void add(Sum& sum, const Rig& rig, const Subject& subject, const std::vector<Vec3f>& moves) {
+    const Face& face = subject.face;
     const Mesh& mesh = face.mesh;
     std::vector<Vec3f> truth(mesh.positions), found(mesh.positions.size()), points;
     for (std::size_t v = 0; v < truth.size(); ++v) truth[v] += moves[v];
     for (const FeaturePoint& point : rig.points) points.push_back(moves[point.vertex]);
     deform(rig, points, found);
-    sum.figures.error += root_mean_square(found, truth) / root_mean_square(truth, mesh.positions);
+    sum.figures.error +=
+        root_mean_square(found, truth, subject.skin) / root_mean_square(truth, mesh.positions, subject.skin);
     count(mesh, truth, found, 0.002 * eye_distance(face.points), sum.triangles);
     ++sum.count;
 }
@@ -47,10 +45,10 @@ inline Figures mean(const Sum& sum) {
             static_cast<double>(sum.triangles.flipped) / static_cast<double>(sum.triangles.moving)};
 }
 
-/// Every shape from a rig that has seen neither it nor its mirror partner. `face`: with the points that the rig gets;
-/// `make`: a rig from the shapes that are left.
+/// Every shape from a rig that has seen neither it nor its mirror partner. `make`: a rig from the shapes that are left.
 template <class Make>
-Figures leave_one_out(const Face& face, const Make& make) {
+Figures leave_one_out(const Subject& subject, const Make& make) {
+    const Face& face = subject.face;
     std::vector<std::string> done;
     Sum sum;
     for (const MorphTarget& shape : face.mesh.morph_targets) {
@@ -61,21 +59,23 @@ Figures leave_one_out(const Face& face, const Make& make) {
             if (family(other.name) != done.back()) kept.push_back(other);
         const Rig rig = make(kept);
         for (const MorphTarget& aside : face.mesh.morph_targets)
-            if (family(aside.name) == done.back()) add(sum, rig, face, dense(aside, vertex_count(face.mesh)));
+            if (family(aside.name) == done.back()) add(sum, rig, subject, dense(aside, vertex_count(face.mesh)));
     }
     return mean(sum);
 }
 
 /// Every shape of the head.
-inline Figures singles(const Rig& rig, const Face& face) {
+inline Figures singles(const Rig& rig, const Subject& subject) {
+    const Face& face = subject.face;
     Sum sum;
     for (const MorphTarget& shape : face.mesh.morph_targets)
-        if (!shape.vertices.empty()) add(sum, rig, face, dense(shape, vertex_count(face.mesh)));
+        if (!shape.vertices.empty()) add(sum, rig, subject, dense(shape, vertex_count(face.mesh)));
     return mean(sum);
 }
 
 /// Mixes of the head's shapes: a fifth of them at a time on average, each between 0 and 1.
-inline Figures mixes(const Rig& rig, const Face& face, std::size_t count) {
+inline Figures mixes(const Rig& rig, const Subject& subject, std::size_t count) {
+    const Face& face = subject.face;
     std::uint32_t state = 1;
     const auto random = [&state] {
         state = 1664525U * state + 1013904223U;
@@ -92,28 +92,25 @@ inline Figures mixes(const Rig& rig, const Face& face, std::size_t count) {
             for (std::size_t i = 0; i < shape.vertices.size(); ++i)
                 moves[shape.vertices[i]] += static_cast<float>(weight) * shape.deltas[i];
         }
-        if (any) add(sum, rig, face, moves);
+        if (any) add(sum, rig, subject, moves);
     }
     return mean(sum);
 }
 
+/// The subject whose face has only the points of a set; "suggested": those of "all_skin" and 13 more.
+inline void add_suggested_points(Face& face);
+inline Subject with_points_of(const Subject& subject, const std::string& set) {
+    Subject result{with_set(subject, set == "suggested" ? "all_skin" : set), {}, subject.skin};
+    if (set == "suggested") add_suggested_points(result.face);
+    return result;
+}
+
 /// The sites that METHODS suggests beside the 73 points, with their mirrors: throat, under the jaw, jaw line, neck,
 /// under the chin, cheek, mid-forehead, below the jaw angle.
-inline Face with_suggested_points(Face face) {
+inline void add_suggested_points(Face& face) {
     for (const std::uint32_t v :
          {970U, 8901U, 9223U, 2462U, 221U, 9008U, 3080U, 839U, 3465U, 1247U, 1851U, 8853U, 9176U})
         face.points.push_back({"at " + std::to_string(v), v, to_double(face.mesh.positions[v]), {}, 0});
-    return face;
-}
-
-/// Another head whose shapes are known: MakeHuman's, of another topology, in units of its own artist.
-inline std::filesystem::path other_folder() {
-    return std::filesystem::path(MIEN_SHARED) / "data" / "mh-caucasian";
-}
-inline Face read_other() {
-    Mesh mesh = read_mesh(other_folder() / "mh-caucasian-female.glb");
-    std::vector<FeaturePoint> points = read_points(other_folder() / "points-glb.json", mesh).points;
-    return {std::move(mesh), std::move(points)};
 }
 
 }  // namespace mien::figures

@@ -60,6 +60,7 @@ struct Party {
 Eigen::MatrixXd weights_on_places(const Face& face, const Weld& joined) {
     BiharmonicOptions all;
     all.influences = 0;
+    all.cut_pockets = false;
     const Rig rig = rig_biharmonic(face, all);
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(std::ssize(joined.vertex), std::ssize(face.points));
     for (std::size_t p = 0; p < joined.vertex.size(); ++p)

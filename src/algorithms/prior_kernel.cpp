@@ -8,8 +8,8 @@
 //     B(v,f) = s sum_j A_j(v) . A_j(f) exp(-|v - f|^2 / (2 sw^2))
 //
 // The dot product in B forgets in which direction a shape moves two places and keeps how strongly they move together.
-// The sheet ends 1.6 eye distances from the points. Where nothing is as far, it may drift as a whole: a little of M
-// keeps that finite.
+// The sheet ends 1.6 eye distances from the points and at closed pockets, where it follows their rims. Where nothing is
+// as far, it may drift as a whole: a little of M keeps that finite.
 
 #include "algorithms/prior_kernel.hpp"
 
@@ -17,10 +17,13 @@
 #include <cmath>
 #include <tbb/parallel_for.h>
 
+#include "algorithms/face_check.hpp"
 #include "algorithms/island.hpp"
 #include "algorithms/laplacian.hpp"
+#include "algorithms/pockets.hpp"
 #include "algorithms/sparse_solve.hpp"
 
+#include "mien/algorithms/attach.hpp"
 #include "mien/algorithms/surface_distance.hpp"
 
 namespace mien {
@@ -51,31 +54,28 @@ double total_size(std::span<const Field> shapes, const std::vector<double>& fact
     return sum;
 }
 
-Eigen::VectorXd mobility_of(const Face& face, const Weld& weld, std::span<const Field> all, Places places,
-                            const PriorSetting& setting) {
-    const double scale = face_scale(face);
-    const Laplacian surface = laplacian(face.mesh, weld);
+Eigen::VectorXd mobility_of(const Ground& ground, std::span<const Field> all, const PriorSetting& setting) {
+    const Laplacian surface = laplacian(ground.face.mesh, ground.joined);
     Eigen::VectorXd mu = Eigen::VectorXd::Zero(surface.areas.size());
     for (const Field& shape : all) mu += shape.rowwise().squaredNorm();
-    Sparse step = std::pow(setting.ms * scale, 2) * surface.stiffness;
+    Sparse step = std::pow(setting.ms * ground.scale, 2) * surface.stiffness;
     step += Sparse(surface.areas.asDiagonal());
     const Eigen::VectorXd smooth = solve_checked(step, surface.areas.asDiagonal() * mu, "rig prior").cwiseMax(0);
     double mean = 0;
-    for (const std::uint32_t p : places) mean += smooth[p] / static_cast<double>(places.size());
+    for (const std::uint32_t p : ground.points) mean += smooth[p] / static_cast<double>(ground.points.size());
     if (!(mean > 0)) return Eigen::VectorXd::Constant(mu.size(), std::pow(1 + setting.mf, setting.gs / 2));
     return (smooth.array() / mean + setting.mf).pow(setting.gs / 2);
 }
 
 // The solved places that a mover reaches along the surface.
-std::vector<std::uint32_t> near_places(const Face& face, const Weld& weld, const std::vector<bool>& solved,
-                                       Places movers) {
-    const EdgeGraph graph = edge_graph(face.mesh, weld);
-    const double radius = far_radius * face_scale(face);
-    std::vector<bool> is_near(solved.size(), false);
+std::vector<std::uint32_t> near_places(const Ground& ground, Places movers) {
+    const EdgeGraph graph = edge_graph(ground.open, ground.joined);
+    const double radius = far_radius * ground.scale;
+    std::vector<bool> is_near(ground.solved.size(), false);
     for (const std::uint32_t place : movers) {
         const std::vector<double> d = surface_distances(graph, place, radius);
         for (std::size_t p = 0; p < d.size(); ++p)
-            if (d[p] <= radius && solved[p]) is_near[p] = true;
+            if (d[p] <= radius && ground.solved[p]) is_near[p] = true;
     }
     std::vector<std::uint32_t> near;
     for (std::uint32_t p = 0; p < is_near.size(); ++p)
@@ -83,17 +83,19 @@ std::vector<std::uint32_t> near_places(const Face& face, const Weld& weld, const
     return near;
 }
 
-Eigen::MatrixXd smooth_part(const Face& face, const Weld& weld, const std::vector<bool>& solved, const Movers& movers,
-                            const Eigen::VectorXd& q, const PriorSetting& setting) {
-    const double scale = face_scale(face);
-    const Laplacian surface = laplacian(face.mesh, weld);
+Eigen::MatrixXd smooth_part(const Ground& ground, const Movers& movers, const Eigen::VectorXd& q,
+                            const PriorSetting& setting) {
+    const double scale = ground.scale;
+    const Laplacian surface = laplacian(ground.open, ground.joined);
     Sparse energy = surface.stiffness * Eigen::VectorXd(surface.areas.cwiseInverse()).asDiagonal() * surface.stiffness;
     energy += setting.a / (scale * scale) * surface.stiffness;
     energy += drift / std::pow(scale, 4) * Sparse(surface.areas.asDiagonal());
-    const Sparse to_near = picks(energy.rows(), near_places(face, weld, solved, movers.places));
+    const Sparse to_near = picks(energy.rows(), near_places(ground, movers.places));
     const Sparse near_to_movers = to_near.transpose() * picks(energy.rows(), movers.places);
     const Sparse within = to_near.transpose() * energy * to_near;
     Eigen::MatrixXd G = to_near * solve_checked(within, Eigen::MatrixXd(near_to_movers), "rig prior");
+    if (!ground.pocket.empty())
+        G(ground.pocket, Eigen::all) = Eigen::MatrixXd(fill_pockets(ground.face.mesh, ground.joined, ground.pocket, G));
     G = (q.asDiagonal() * G).eval();
     double mean = 0;
     for (Eigen::Index f = 0; f < G.cols(); ++f) {
@@ -111,22 +113,36 @@ Eigen::MatrixXd side_by_side(std::span<const Field> shapes, Eigen::Index places)
     return all;
 }
 
-void add_copy(Eigen::MatrixXd& S, const Face& face, const Weld& weld, const Movers& movers,
-              std::span<const Field> shapes, const PriorSetting& setting) {
+void add_copy(Eigen::MatrixXd& S, const Ground& ground, const Movers& movers, std::span<const Field> shapes,
+              const PriorSetting& setting) {
     const Eigen::MatrixXd all = side_by_side(shapes, S.rows());
-    const double scale = face_scale(face);
+    const auto at_place = [&](std::uint32_t p) { return position(ground.face.mesh, ground.joined, p); };
     tbb::parallel_for(std::size_t{0}, movers.places.size(), [&](std::size_t f) {
         const std::uint32_t at = movers.places[f];
         const Eigen::VectorXd own = all.row(at).transpose();
-        const Vec3 from = position(face.mesh, weld, at);
+        const Vec3 from = at_place(at);
         for (std::uint32_t p = 0; p < S.rows(); ++p) {
-            const double d = distance(position(face.mesh, weld, p), from) / (scale * setting.sw);
+            const double d = distance(at_place(p), from) / (ground.scale * setting.sw);
             S(p, static_cast<Eigen::Index>(f)) += setting.s * all.row(p).dot(own) * std::exp(-d * d / 2);
         }
     });
 }
 
 }  // namespace
+
+Ground ground_of(const Face& face) {
+    Ground ground{face, weld(face.mesh), {}, {}, face_scale(face), {}, {}};
+    check_face(face, ground.joined);
+    ground.solved = solved_places(face, ground.joined);
+    for (const FeaturePoint& point : face.points)
+        if (ground.solved[ground.joined.place[point.vertex]])
+            ground.points.push_back(ground.joined.place[point.vertex]);
+    const std::vector<bool> is_pocket = closed_pockets(face, ground.joined, ground.solved);
+    for (std::uint32_t p = 0; p < is_pocket.size(); ++p)
+        if (is_pocket[p]) ground.pocket.push_back(p);
+    ground.open = ground.pocket.empty() ? face.mesh : without_places(face.mesh, ground.joined, is_pocket);
+    return ground;
+}
 
 double squared_size(const Field& field) {
     return field.squaredNorm();
@@ -146,8 +162,9 @@ std::vector<double> evening_factors(std::span<const Field> shapes, Places places
     return factors;
 }
 
-Learnt learn(const Face& face, const Weld& weld, std::span<const Field> own, std::span<const Field> helpers,
-             Places places, const PriorSetting& setting) {
+Learnt learn(const Ground& ground, std::span<const Field> own, std::span<const Field> helpers,
+             const PriorSetting& setting) {
+    const Places places = ground.points;
     Learnt learnt;
     const std::vector<double> factors = evening_factors(own, places, setting.beta);
     add_scaled(learnt.all, own, factors, 1);
@@ -159,14 +176,13 @@ Learnt learn(const Face& face, const Weld& weld, std::span<const Field> own, std
     const double motion = squared_at(learnt.all, places);
     if (motion > 0)
         for (Field& shape : learnt.all) shape *= std::sqrt(static_cast<double>(places.size()) / motion);
-    learnt.mobility = mobility_of(face, weld, learnt.all, places, setting);
+    learnt.mobility = mobility_of(ground, learnt.all, setting);
     return learnt;
 }
 
-Eigen::MatrixXd kernel(const Face& face, const Weld& weld, const std::vector<bool>& solved, const Movers& movers,
-                       const Learnt& learnt, const PriorSetting& setting) {
-    Eigen::MatrixXd S = smooth_part(face, weld, solved, movers, learnt.mobility, setting);
-    add_copy(S, face, weld, movers, learnt.all, setting);
+Eigen::MatrixXd kernel(const Ground& ground, const Movers& movers, const Learnt& learnt, const PriorSetting& setting) {
+    Eigen::MatrixXd S = smooth_part(ground, movers, learnt.mobility, setting);
+    add_copy(S, ground, movers, learnt.all, setting);
     return S / 3;
 }
 

@@ -39,6 +39,20 @@ struct Learnt {
     Eigen::VectorXd mobility;  ///< q of every place
 };
 
+/// A head with what a rigger asks of it.
+struct Ground {
+    const Face& face;
+    Weld joined;
+    std::vector<bool> solved;           ///< per place
+    std::vector<std::uint32_t> points;  ///< places of the feature points on the skin
+    double scale = 1;                   ///< eye distance
+    std::vector<std::uint32_t> pocket;  ///< places of closed pockets, which the sheet leaves out
+    Mesh open;                          ///< the head without them
+};
+
+/// Throws Error unless the face has what every rigger asks for.
+Ground ground_of(const Face& face);
+
 /// Squared size of a field, each place counting once.
 double squared_size(const Field& field);
 
@@ -46,14 +60,12 @@ double squared_size(const Field& field);
 /// of the squared motion is the number of places. No shape may be of size zero.
 std::vector<double> evening_factors(std::span<const Field> shapes, std::span<const std::uint32_t> places, double beta);
 
-/// Steps 1 to 3: `own` and `helpers` evened out and put together, and how mobile each place is. `places`: where the
-/// feature points are.
-Learnt learn(const Face& face, const Weld& weld, std::span<const Field> own, std::span<const Field> helpers,
-             std::span<const std::uint32_t> places, const PriorSetting& setting);
+/// Steps 1 to 3: `own` and `helpers` evened out and put together, and how mobile each place is.
+Learnt learn(const Ground& ground, std::span<const Field> own, std::span<const Field> helpers,
+             const PriorSetting& setting);
 
 /// Steps 4 to 6: S = (G + B) / 3, places x movers: how every place moves with every point, when points are all that is
 /// known.
-Eigen::MatrixXd kernel(const Face& face, const Weld& weld, const std::vector<bool>& solved, const Movers& movers,
-                       const Learnt& learnt, const PriorSetting& setting);
+Eigen::MatrixXd kernel(const Ground& ground, const Movers& movers, const Learnt& learnt, const PriorSetting& setting);
 
 }  // namespace mien

@@ -20,9 +20,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <string>
-#include <tbb/parallel_for.h>
 
-#include "algorithms/face_check.hpp"
 #include "algorithms/island.hpp"
 #include "algorithms/movers.hpp"
 #include "algorithms/prior_kernel.hpp"
@@ -56,25 +54,6 @@ void check_shape(const MorphTarget& shape, std::size_t vertices) {
             throw Error(fmt::format("shape \"{}\": expected finite numbers, found another at vertex {}", shape.name,
                                     shape.vertices[i]));
     }
-}
-
-// A head with all that its riggers ask of it.
-struct Ground {
-    const Face& face;
-    Weld joined;
-    std::vector<bool> solved;
-    std::vector<std::uint32_t> points;  // places of the feature points on the skin
-    double scale;
-};
-
-Ground ground_of(const Face& face) {
-    Ground ground{face, weld(face.mesh), {}, {}, face_scale(face)};
-    check_face(face, ground.joined);
-    ground.solved = solved_places(face, ground.joined);
-    for (const FeaturePoint& point : face.points)
-        if (ground.solved[ground.joined.place[point.vertex]])
-            ground.points.push_back(ground.joined.place[point.vertex]);
-    return ground;
 }
 
 Field field_of(const MorphTarget& shape, const Ground& ground) {
@@ -118,25 +97,14 @@ struct Solved {
     WeightRows rows;
 };
 
-WeightRows rows_of(const Eigen::MatrixXd& S, const Eigen::MatrixXd& block, const Eigen::MatrixXd& precision,
-                   const std::vector<bool>& solved, const Movers& movers, std::uint32_t influences) {
-    const auto keep = influences == 0 ? static_cast<std::uint32_t>(movers.points.size()) : influences;
-    std::vector<std::vector<KeptWeight>> kept(solved.size());
-    tbb::parallel_for(std::size_t{0}, solved.size(), [&](std::size_t p) {
-        if (!solved[p]) return;
-        const Eigen::VectorXd row = precision * S.row(static_cast<Eigen::Index>(p)).transpose();
-        kept[p] = refit_row(row, block, keep);
-    });
-    for (std::uint32_t m = 0; m < movers.places.size(); ++m) kept[movers.places[m]] = {{m, 1}};
-    WeightRows rows;
-    for (const auto& row : kept) {
-        for (const KeptWeight& entry : row) {
-            rows.points.push_back(movers.points[entry.column]);
-            rows.weights.push_back(entry.weight);
-        }
-        rows.starts.push_back(static_cast<std::uint32_t>(rows.points.size()));
-    }
-    return rows;
+// Every solved place but those of the movers.
+std::vector<std::uint32_t> free_places(const Ground& ground, const Movers& movers) {
+    std::vector<bool> is_free(ground.solved);
+    for (const std::uint32_t place : movers.places) is_free[place] = false;
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t p = 0; p < is_free.size(); ++p)
+        if (is_free[p]) places.push_back(p);
+    return places;
 }
 
 Solved solved_of(const Ground& ground, const Movers& movers, const Learnt& learnt, const PriorSetting& setting,
@@ -146,14 +114,16 @@ Solved solved_of(const Ground& ground, const Movers& movers, const Learnt& learn
         part.rows.starts.assign(ground.solved.size() + 1, 0);
         return part;
     }
-    const Eigen::MatrixXd S = kernel(ground.face, ground.joined, ground.solved, movers, learnt, setting);
+    const Eigen::MatrixXd S = kernel(ground, movers, learnt, setting);
     const std::vector<Eigen::Index> at(movers.places.begin(), movers.places.end());
     Eigen::MatrixXd block = S(at, Eigen::all);
     block = ((block + block.transpose()) / 2).eval();
     block.diagonal().array() += setting.eps * (block.diagonal().mean() + setting.v / 3);
     const Eigen::Index n = block.rows();
     part.precision = block.llt().solve(Eigen::MatrixXd::Identity(n, n));
-    part.rows = rows_of(S, block, part.precision, ground.solved, movers, influences);
+    const std::vector<std::uint32_t> free = free_places(ground, movers);
+    const Eigen::MatrixXd weights = S(free, Eigen::all) * part.precision;
+    part.rows = refit_rows(ground.solved.size(), movers, free, weights, block, influences);
     return part;
 }
 
@@ -302,7 +272,7 @@ Rig rig_prior(const Face& face, const Examples& examples, const PriorOptions& op
     check_count(known, face.points.size());
     const PriorSetting setting = has_own ? own_setting(ground.points.size(), one_sided) : carried_setting;
     const std::vector<Field> helpers = has_own ? carried.fields : std::vector<Field>();
-    const Learnt learnt = learn(face, ground.joined, known.fields, helpers, ground.points, setting);
+    const Learnt learnt = learn(ground, known.fields, helpers, setting);
 
     std::vector<Solved> parts;
     Rig rig = rig_by_axes("prior", face, [&](const Weld&, const std::vector<bool>&, const Movers& movers) {
