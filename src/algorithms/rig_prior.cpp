@@ -40,7 +40,7 @@ PriorSetting own_setting(std::size_t points, bool one_sided) {
     const bool many = points >= 60;
     return {28.5, 0.2, 0.5, 0.2, 0.7, 0.7, 0.8, many ? 0.01 : 0.1, 0.2, 1e-4, one_sided ? 0.3 : 1, many ? 0.1 : 0.3};
 }
-constexpr PriorSetting carried_setting{28.5, 1, 0.08, 0.7, 0.6, 0, 0.7, 0.005, 0.3, 1e-4, 1, 0};
+constexpr PriorSetting carried_setting{41, 1, 0.08, 0.5, 0.5, 0, 0.7, 0.005, 0.3, 1e-4, 1, 0};
 
 void check_shape(const MorphTarget& shape, std::size_t vertices) {
     if (shape.vertices.size() != shape.deltas.size())
