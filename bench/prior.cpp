@@ -97,17 +97,38 @@ void from_ict(benchmark::State& state, const char* set) {
     if (is_there(state)) carried(state, figures::with_points_of(other(), set), shapes_on_other());
 }
 
-void frame(benchmark::State& state, bool one_sided) {
+// What a frame costs: the rows alone, the solve alone, all of it.
+enum class Work { rows, solve, one_sided, linear };
+void frame(benchmark::State& state, Work work) {
     if (!is_there(state)) return;
     const Face face = figures::with_set(subject(), "all_skin");
-    const Rig rig = rig_prior(face, {face.mesh.morph_targets, {}}, {one_sided, 8});
+    Rig rig = rig_prior(face, {face.mesh.morph_targets, {}}, {work != Work::linear, 8});
     std::vector<Vec3f> points, positions(vertex_count(face.mesh));
+    std::vector<float> weights(rig.prior->shapes.size());
     const std::vector<Vec3f> moves = figures::dense(face.mesh.morph_targets.back(), positions.size());
     for (const FeaturePoint& point : face.points) points.push_back(moves[point.vertex]);
+    const Prior prior = *rig.prior;
+    if (work == Work::rows) rig.prior.reset();
     for (auto _ : state) {
-        deform(rig, points, positions);
+        if (work == Work::solve)
+            shape_weights(prior, points, weights);
+        else
+            deform(rig, points, positions);
         benchmark::DoNotOptimize(positions.data());
+        benchmark::DoNotOptimize(weights.data());
     }
+}
+
+void bind(benchmark::State& state) {
+    if (!is_there(state)) return;
+    const Face face = figures::with_set(subject(), "all_skin");
+    for (auto _ : state) benchmark::DoNotOptimize(rig_prior(face, {face.mesh.morph_targets, units()}).weights.data());
+}
+
+void carry(benchmark::State& state) {
+    if (!is_there(state)) return;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(carry_shapes(other().face, other().face.mesh.morph_targets, subject().face).data());
 }
 
 const bool registered = [] {
@@ -126,8 +147,12 @@ const bool registered = [] {
         benchmark::RegisterBenchmark((std::string("prior/from ICT/") + set).c_str(), from_ict, set)
             ->Unit(kMillisecond)
             ->Iterations(1);
-    benchmark::RegisterBenchmark("prior/frame/one-sided", frame, true);
-    benchmark::RegisterBenchmark("prior/frame/linear", frame, false);
+    benchmark::RegisterBenchmark("prior/frame/rows alone", frame, Work::rows);
+    benchmark::RegisterBenchmark("prior/frame/solve alone", frame, Work::solve);
+    benchmark::RegisterBenchmark("prior/frame/one-sided", frame, Work::one_sided);
+    benchmark::RegisterBenchmark("prior/frame/linear", frame, Work::linear);
+    benchmark::RegisterBenchmark("prior/bind", bind)->Unit(kMillisecond);
+    benchmark::RegisterBenchmark("prior/carry", carry)->Unit(kMillisecond);
     return true;
 }();
 
