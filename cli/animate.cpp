@@ -23,12 +23,13 @@ struct Animate {
 // surroundings fast, and an island whose own points are not driven is attached instead.
 void animate(Call& call, Animate& flags) {
     std::vector<std::filesystem::path> inputs = input_files(flags.performance);
-    inputs.insert(inputs.end(), {flags.face.head, flags.face.points});
+    const std::vector<std::filesystem::path> of_face = input_files(flags.face);
+    inputs.insert(inputs.end(), of_face.begin(), of_face.end());
     check_output(flags.output.output, inputs, call.flags);
     const Face face = load_face(flags.face, call.report);
     flags.performance.retarget.reading = flags.face.rig.reading;
     const Take onto = load_performance(flags.performance, face, call.report);
-    const Rig rig = bind_rig(with_points(face, onto.points), flags.face, call.report);
+    const Rig rig = bind_rig(with_points(face, onto.points), face, flags.face, call.report);
     write_performance(call, flags.output, face.mesh, rig, onto);
 }
 

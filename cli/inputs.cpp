@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 #include <string_view>
 
+#include "mien/algorithms/carry_shapes.hpp"
+#include "mien/algorithms/rig_prior.hpp"
 #include "mien/error.hpp"
 #include "mien/io/read.hpp"
 
@@ -53,6 +56,19 @@ void add_rig_flags(CLI::App& verb, FaceFlags& flags) {
         ->check(CLI::IsMember(rigger_names()))
         ->capture_default_str();
     add_reading_flag(verb, flags.rig.reading);
+    verb.add_option("--examples", flags.examples,
+                    "a file with shapes (morph targets) to learn from: of this very head, or of another one whose "
+                    "points --examples-points has; may be given several times")
+        ->allow_extra_args(false)
+        ->excludes("--method");
+    verb.add_option("--examples-points", flags.examples_points,
+                    "the feature points (.json) of the --examples that are other heads, in their order")
+        ->allow_extra_args(false)
+        ->needs("--examples");
+    verb.add_flag("--linear-prior", flags.linear_prior,
+                  "let example shapes be taken away too, so that the rig is one linear map, for engines that cannot "
+                  "solve per frame")
+        ->needs("--examples");
     verb.add_option("--rig-influences", flags.rig.influences, "points kept per vertex in the rig, 0 for all")
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
@@ -80,8 +96,60 @@ Face load_face(const FaceFlags& flags, Report& report) {
     return {std::move(mesh), std::move(points.points)};
 }
 
-Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report) {
-    Rig rig = make_rig(face, flags.method, flags.rig);
+std::vector<std::filesystem::path> input_files(const FaceFlags& flags) {
+    std::vector<std::filesystem::path> files{flags.head, flags.points};
+    files.insert(files.end(), flags.examples.begin(), flags.examples.end());
+    files.insert(files.end(), flags.examples_points.begin(), flags.examples_points.end());
+    return files;
+}
+
+namespace {
+
+void append(std::vector<MorphTarget>& shapes, std::vector<MorphTarget> more) {
+    shapes.insert(shapes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+// A file whose faces are those of the head has shapes of the head itself.
+Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report) {
+    Examples examples;
+    auto points = flags.examples_points.begin();
+    for (const std::filesystem::path& file : flags.examples) {
+        Face source{read_mesh(file), {}};
+        if (source.mesh.morph_targets.empty())
+            throw Error(file.string() + ": expected shapes to learn from, found none");
+        const bool is_own = source.mesh.face_vertices == whole.mesh.face_vertices &&
+                            vertex_count(source.mesh) == vertex_count(whole.mesh);
+        report["examples"].push_back({{"file", file.filename().string()},
+                                      {"shapes", source.mesh.morph_targets.size()},
+                                      {"of", is_own ? "this head" : "another head, carried over"}});
+        if (is_own) {
+            append(examples.own, std::move(source.mesh.morph_targets));
+            continue;
+        }
+        if (points == flags.examples_points.end())
+            throw Error(file.string() + ": these shapes are of another head; expected its points by --examples-points");
+        source.points = read_points(*points++, source.mesh).points;
+        append(examples.carried, carry_shapes(source, source.mesh.morph_targets, whole));
+    }
+    if (points != flags.examples_points.end())
+        throw Error(points->string() + ": expected one --examples-points for each other head, found one more");
+    return examples;
+}
+
+Rig learnt_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report& report) {
+    const Examples examples = load_examples(whole, flags, report);
+    Rig rig = rig_prior(face, examples, {!flags.linear_prior, flags.rig.influences});
+    report["prior"] = {{"shapes", rig.prior->shapes.size()},
+                       {"left_out_because_they_move_no_skin",
+                        (examples.own.empty() ? examples.carried : examples.own).size() - rig.prior->shapes.size()},
+                       {"solve", is_one_sided(*rig.prior) ? "shapes are only added" : "linear"}};
+    return rig;
+}
+
+}  // namespace
+
+Rig bind_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report& report) {
+    Rig rig = flags.examples.empty() ? make_rig(face, flags.method, flags.rig) : learnt_rig(face, whole, flags, report);
     Report& bound = report["rig"];
     bound["method"] = rig.method;
     bound["points"] = rig.points.size();
@@ -90,6 +158,10 @@ Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report) {
     for (const Attachment& part : rig.attachments)
         bound["attached"].push_back({{"part", part.name}, {"how", part.how}, {"vertices", part.vertices}});
     return rig;
+}
+
+Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report) {
+    return bind_rig(face, face, flags, report);
 }
 
 void add_take_flags(CLI::App& verb, TakeFlags& flags) {

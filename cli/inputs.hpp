@@ -24,6 +24,9 @@ struct FaceFlags {
     std::filesystem::path points;
     std::string method;
     RigOptions rig;
+    std::vector<std::filesystem::path> examples;         ///< heads with shapes: this one, or others
+    std::vector<std::filesystem::path> examples_points;  ///< of the others, in their order
+    bool linear_prior = false;
 };
 void add_face_flags(CLI::App& verb, FaceFlags& flags);
 void add_rig_flags(CLI::App& verb, FaceFlags& flags);
@@ -31,7 +34,12 @@ void add_rig_flags(CLI::App& verb, FaceFlags& flags);
 /// Reads the head and its points and tells the report about them. Throws Error if the file holds no mesh.
 Face load_face(const FaceFlags& flags, Report& report);
 
-/// Binds the rig and tells the report how every part of the head was reached.
+/// Every file that is read.
+std::vector<std::filesystem::path> input_files(const FaceFlags& flags);
+
+/// Binds the rig, learning from example shapes where there are any, and tells the report how every part of the head was
+/// reached. `whole`: the face with all its points, through which shapes of other heads are carried over.
+Rig bind_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report& report);
 Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report);
 
 /// Whether a file holds a take, by its extension.

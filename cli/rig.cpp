@@ -22,8 +22,10 @@ struct MakeRig {
 };
 
 void rig(Call& call, const MakeRig& flags) {
-    check_output(flags.output.output, {flags.face.head, flags.face.points}, call.flags);
-    check_output(flags.picture, {flags.face.head, flags.face.points, flags.output.output}, call.flags);
+    std::vector<std::filesystem::path> inputs = input_files(flags.face);
+    check_output(flags.output.output, inputs, call.flags);
+    inputs.push_back(flags.output.output);
+    check_output(flags.picture, inputs, call.flags);
     const Face face = load_face(flags.face, call.report);
     const Rig rig = bind_rig(face, flags.face, call.report);
     const Skin skin = skin_for(call, flags.output, face.mesh, rig, Take{});

@@ -14,5 +14,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         fuzz::expect(file.mesh.positions.size() == file.rig.rest.size(), "a head of as many vertices as the rig");
         fuzz::expect(file.rig.row_starts.back() == file.rig.weights.size(), "rows that hold all weights");
         for (const std::uint16_t point : file.rig.row_points) fuzz::expect(point < file.rig.points.size(), "points");
+        if (file.rig.prior)
+            fuzz::expect(hostile::keeps_promise(*file.rig.prior, file.rig), "a prior that can be solved");
     });
 }

@@ -23,10 +23,11 @@ if(TARGET mien_cli)
 
   set(program "MIEN=$<TARGET_FILE:mien_cli>")
   script_test(cli.promises ${CMAKE_CURRENT_SOURCE_DIR}/cli/cli_test.py)
+  script_test(cli.examples ${CMAKE_CURRENT_SOURCE_DIR}/cli/examples_test.py)
   script_test(cli.written_files_are_valid ${CMAKE_CURRENT_SOURCE_DIR}/cli/written_files_are_valid.py)
   script_test(cli.face_animation ${CMAKE_CURRENT_SOURCE_DIR}/cli/fap_test.py)
   script_test(cli.pictures ${CMAKE_CURRENT_SOURCE_DIR}/cli/render_test.py)
-  set_tests_properties(cli.promises cli.face_animation cli.pictures cli.written_files_are_valid PROPERTIES ENVIRONMENT ${program})
+  set_tests_properties(cli.promises cli.examples cli.face_animation cli.pictures cli.written_files_are_valid PROPERTIES ENVIRONMENT ${program})
 
   # The README's fragment: compiled and linked as it stands, and run beside the samples it names.
   set(fragment ${CMAKE_CURRENT_BINARY_DIR}/readme)

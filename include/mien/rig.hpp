@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mien/face.hpp"
+#include "mien/prior.hpp"
 #include "mien/take.hpp"
 
 namespace mien {
@@ -46,6 +47,7 @@ struct Rig {
     std::vector<Eyeball> eyeballs;          ///< their vertices have empty rows
     std::vector<Attachment> attachments;
     std::uint32_t unreached = 0;  ///< skin vertices that no feature point reaches: they do not move
+    std::optional<Prior> prior;   ///< of a rig made from example shapes: what they add to the rows
 };
 
 inline std::size_t vertex_count(const Rig& rig) {

@@ -7,6 +7,7 @@
 
 #include "mien/algorithms/deform.hpp"
 
+#include <array>
 #include <cassert>
 #include <fmt/format.h>
 #include <memory>
@@ -35,11 +36,23 @@ void turn(const Rig& rig, const Eyeball& eyeball, std::span<const Vec3f> displac
         positions[v] = to_float(eyeball.centre + rotate(q, to_double(rig.rest[v]) - eyeball.centre));
 }
 
+void add_shapes(const Prior& prior, std::span<const Vec3f> displacements, std::span<Vec3f> positions) noexcept {
+    std::array<float, Prior::most_shapes> weights{};
+    shape_weights(prior, displacements, std::span(weights).first(prior.shapes.size()));
+    for (std::size_t k = 0; k < prior.shapes.size(); ++k) {
+        const MorphTarget& shape = prior.shapes[k];
+        if (weights[k] == 0) continue;
+        for (std::size_t i = 0; i < shape.vertices.size(); ++i)
+            positions[shape.vertices[i]] += weights[k] * shape.deltas[i];
+    }
+}
+
 }  // namespace
 
 void deform(const Rig& rig, std::span<const Vec3f> displacements, std::span<Vec3f> positions) noexcept {
     assert(displacements.size() == rig.points.size() && positions.size() == rig.rest.size());
     for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = moved(rig, v, displacements);
+    if (rig.prior) add_shapes(*rig.prior, displacements, positions);
     for (const Eyeball& eyeball : rig.eyeballs) turn(rig, eyeball, displacements, positions);
 }
 

@@ -5,6 +5,8 @@
 // one of its vertices, in the order of the track, on every one of its primitives, as the specification wants; a mesh
 // that nothing moves stays as it is. A target is a sparse accessor over zeros (3.6.2.3) where that takes fewer bytes.
 
+#include "io/gltf_morphs.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>
@@ -12,9 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "io/gltf_base.hpp"
 #include "io/gltf_builder.hpp"
-#include "io/gltf_keys.hpp"
 
 #include "mien/error.hpp"
 #include "mien/io/gltf.hpp"
@@ -122,11 +122,12 @@ void append_target(GltfDocument& document, Primitives primitives, const std::vec
     }
 }
 
-Targets append_targets(GltfDocument& document, Primitives primitives, const Mesh& mesh, const MorphTrack& track) {
+Targets append_targets(GltfDocument& document, Primitives primitives, std::size_t vertices,
+                       std::span<const MorphTarget> all) {
     Targets targets;
-    std::vector<Vec3f> deltas(vertex_count(mesh));
-    for (std::size_t t = 0; t < track.targets.size(); ++t) {
-        const MorphTarget& target = track.targets[t];
+    std::vector<Vec3f> deltas(vertices);
+    for (std::size_t t = 0; t < all.size(); ++t) {
+        const MorphTarget& target = all[t];
         for (std::size_t i = 0; i < target.vertices.size(); ++i) deltas[target.vertices[i]] = target.deltas[i];
         if (std::any_of(primitives.begin(), primitives.end(),
                         [&](const WrittenPrimitive& written) { return !moved_of(deltas, written).at.empty(); })) {
@@ -138,19 +139,12 @@ Targets append_targets(GltfDocument& document, Primitives primitives, const Mesh
     return targets;
 }
 
-void name_targets(json& mesh, const Targets& targets, const MorphTrack& track) {
+void name_targets(json& mesh, const Targets& targets, std::span<const MorphTarget> all) {
     json names = json::array();
-    for (const std::size_t t : targets) names.push_back(track.targets[t].name);
+    for (const std::size_t t : targets) names.push_back(all[t].name);
     if (!mesh.contains("extras") || !mesh["extras"].is_object()) mesh["extras"] = json::object();
     mesh["extras"]["targetNames"] = std::move(names);
     mesh["weights"] = std::vector<float>(targets.size());
-}
-
-std::vector<float> weights_over_time(const MorphTrack& track, const Targets& targets, const Keys& keys) {
-    std::vector<float> weights;
-    for (const std::size_t r : keys.rows)
-        for (const std::size_t t : targets) weights.push_back(track.weights[r * track.targets.size() + t]);
-    return weights;
 }
 
 // The primitives of the document's mesh that hangs on a node.
@@ -162,19 +156,13 @@ Primitives primitives_of(const BaseDocument& base, std::size_t node) {
     return {first, std::upper_bound(first, base.primitives.end(), mesh, is_after)};
 }
 
-// A mesh that moves: the node that it hangs on and its targets.
-struct Moving {
-    std::size_t node;
-    Targets targets;
-};
-
-void append_animation(GltfDocument& document, const std::vector<Moving>& all, const MorphTrack& track) {
+void append_animation(GltfDocument& document, const std::vector<MorphedMesh>& all, const MorphTrack& track) {
     const Keys keys = keys_of(track.times);
     if (all.empty() || keys.times.empty()) return;
     const std::size_t input = append_floats(document, keys.times, Elements::scalar, BufferTarget::none, Bounds::given);
     json samplers = json::array(), channels = json::array();
-    for (const Moving& moving : all) {
-        const std::vector<float> weights = weights_over_time(track, moving.targets, keys);
+    for (const MorphedMesh& moving : all) {
+        const std::vector<float> weights = weights_at_keys(moving, track.weights, track.targets.size(), keys);
         const std::size_t output = append_floats(document, weights, Elements::scalar, BufferTarget::none);
         channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", moving.node}, {"path", "weights"}}}});
         samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
@@ -185,19 +173,31 @@ void append_animation(GltfDocument& document, const std::vector<Moving>& all, co
 
 }  // namespace
 
+std::vector<MorphedMesh> append_morphs(BaseDocument& base, std::size_t vertices, std::span<const MorphTarget> targets) {
+    json& root = base.document.json;
+    std::vector<MorphedMesh> all;
+    for (const std::size_t node : base.mesh_nodes) {
+        Targets own = append_targets(base.document, primitives_of(base, node), vertices, targets);
+        if (own.empty()) continue;
+        name_targets(root["meshes"][root["nodes"][node]["mesh"].get<std::size_t>()], own, targets);
+        all.push_back({node, std::move(own)});
+    }
+    return all;
+}
+
+std::vector<float> weights_at_keys(const MorphedMesh& mesh, std::span<const float> weights, std::size_t count,
+                                   const Keys& keys) {
+    std::vector<float> values;
+    for (const std::size_t r : keys.rows)
+        for (const std::size_t t : mesh.targets) values.push_back(weights[r * count + t]);
+    return values;
+}
+
 std::vector<std::byte> format_glb(const Mesh& mesh, const MorphTrack& track) {
     check(mesh, track);
     BaseDocument base = base_document(mesh);
-    GltfDocument& document = base.document;
-    std::vector<Moving> all;
-    for (const std::size_t node : base.mesh_nodes) {
-        Targets targets = append_targets(document, primitives_of(base, node), mesh, track);
-        if (targets.empty()) continue;
-        name_targets(document.json["meshes"][document.json["nodes"][node]["mesh"].get<std::size_t>()], targets, track);
-        all.push_back({node, std::move(targets)});
-    }
-    append_animation(document, all, track);
-    return format_glb(document);
+    append_animation(base.document, append_morphs(base, vertex_count(mesh), track.targets), track);
+    return format_glb(base.document);
 }
 
 }  // namespace mien

@@ -226,6 +226,7 @@ json append_rig(GltfDocument& document, const Rig& rig) {
     written["attachments"] = json::array();
     for (const Attachment& each : rig.attachments)
         written["attachments"].push_back({{"name", each.name}, {"how", each.how}, {"vertices", each.vertices}});
+    if (rig.prior) written["prior"] = append_prior(document, *rig.prior);
     return written;
 }
 
@@ -241,6 +242,7 @@ Rig read_rig_extension(const GltfDocument& document, const json& extension) {
     read_eyeballs(document, extension, rig);
     read_attachments(extension, rig);
     rig.unreached = limited(extension, "unreached", rig_pointer, rig.rest.size());
+    if (const json* prior = find_member(extension, "prior", rig_pointer)) rig.prior = read_prior(document, *prior, rig);
     return rig;
 }
 

@@ -13,6 +13,7 @@
 #include "io/gltf_base.hpp"
 #include "io/gltf_builder.hpp"
 #include "io/gltf_json.hpp"
+#include "io/gltf_morphs.hpp"
 #include "io/gltf_skin.hpp"
 #include "io/rig_extension.hpp"
 #include "io/text.hpp"
@@ -65,12 +66,20 @@ void shorten(json& root, const char* list, const json& neutral) {
     if (count > 0) root[list].erase(root[list].begin() + static_cast<std::ptrdiff_t>(count), root[list].end());
 }
 
+void drop_targets(json& mesh) {
+    mesh.erase("weights");
+    if (!mesh.contains("extras") || !mesh["extras"].is_object()) return;
+    mesh["extras"].erase("targetNames");
+    if (mesh["extras"].empty()) mesh.erase("extras");
+}
+
 void drop_joints(json& primitive) {
     if (!primitive.is_object() || !primitive.contains("attributes") || !primitive["attributes"].is_object()) return;
     json kept = json::object();
     for (const auto& [name, accessor] : primitive["attributes"].items())
         if (!name.starts_with("JOINTS_") && !name.starts_with("WEIGHTS_")) kept[name] = accessor;
     primitive["attributes"] = std::move(kept);
+    primitive.erase("targets");
 }
 
 void drop_skin(json& root) {
@@ -79,8 +88,10 @@ void drop_skin(json& root) {
     for (std::size_t i = 0; i < element_count(root, "nodes"); ++i)
         if (root["nodes"][i].is_object()) root["nodes"][i].erase("skin");
     for (std::size_t i = 0; i < element_count(root, "meshes"); ++i)
-        if (root["meshes"][i].is_object() && root["meshes"][i].contains("primitives"))
+        if (root["meshes"][i].is_object() && root["meshes"][i].contains("primitives")) {
+            drop_targets(root["meshes"][i]);
             for (json& primitive : root["meshes"][i]["primitives"]) drop_joints(primitive);
+        }
 }
 
 void restore_scene(json& root, const json& neutral) {
@@ -144,6 +155,7 @@ std::vector<std::byte> format_rig(const Mesh& mesh, const Rig& rig, const Skin& 
     BaseDocument base = base_document(mesh);
     const json neutral = neutral_counts(base);
     append_skin(base, rig, skin);
+    if (rig.prior) append_morphs(base, vertex_count(mesh), rig.prior->shapes);
     json extension = append_rig(base.document, rig);
     if (mesh.gltf.empty())
         extension["head"] = append_head(base.document, mesh);

@@ -154,6 +154,14 @@ void check_sources(const Movement& movement, std::span<const std::uint32_t> sour
                 fmt::format("render: expected a rig with a row for vertex {}, found one of {} rows", v, rigged));
 }
 
+// The shapes of the rig's prior, then the movement's own.
+std::vector<MorphTarget> all_shapes(const Movement& movement) {
+    std::vector<MorphTarget> all;
+    if (movement.rig != nullptr && movement.rig->prior) all = movement.rig->prior->shapes;
+    all.insert(all.end(), movement.shapes.begin(), movement.shapes.end());
+    return all;
+}
+
 // The rig's rows, the shapes' rows and the eyeballs' joints of every vertex.
 void add_movement(Geometry& geometry, const Movement& movement, std::span<const std::uint32_t> sources) {
     const std::size_t vertices = geometry.positions.size();
@@ -161,7 +169,8 @@ void add_movement(Geometry& geometry, const Movement& movement, std::span<const 
     const auto points = static_cast<std::uint32_t>(rig != nullptr ? rig->points.size() : 0);
     std::size_t used = rig != nullptr ? vertex_count(*rig) : 0;
     for (const std::uint32_t source : sources) used = std::max<std::size_t>(used, source + 1U);
-    const std::vector<Row> shapes = rows_of(movement.shapes, used, points);
+    const std::vector<MorphTarget> all = all_shapes(movement);
+    const std::vector<Row> shapes = rows_of(all, used, points);
     std::vector<std::uint32_t> joint(shapes.size(), 0);
     for (std::size_t e = 0; rig != nullptr && e < rig->eyeballs.size(); ++e)
         for (const std::uint32_t v : rig->eyeballs[e].vertices) joint[v] = static_cast<std::uint32_t>(e + 1);
@@ -178,7 +187,7 @@ void add_movement(Geometry& geometry, const Movement& movement, std::span<const 
         row.push_back(joint_entry(joint[source], 1));
         close_row(geometry.joints, row);
     }
-    geometry.amount_count = points + movement.shapes.size();
+    geometry.amount_count = points + all.size();
     geometry.joint_count = 1 + (rig != nullptr ? rig->eyeballs.size() : 0);
 }
 

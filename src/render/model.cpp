@@ -200,13 +200,17 @@ Amounts amounts_of(const StillModel& still, const ScenePose& pose) {
 Amounts amounts_of(const StillModel& still, std::span<const Vec3f> displacements, std::span<const float> weights) {
     Amounts amounts;
     const std::size_t points = still.rig.points.size();
-    amounts.amounts.resize(points + still.shapes);
+    const std::size_t known = still.rig.prior ? still.rig.prior->shapes.size() : 0;
+    amounts.amounts.resize(points + known + still.shapes);
     for (std::size_t k = 0; k < displacements.size(); ++k) {
         const Vec3f& d = displacements[k];
         amounts.amounts[k] = {d.x, d.y, d.z, 0};
     }
+    std::vector<float> shown(known);
+    if (known > 0 && !displacements.empty()) shape_weights(*still.rig.prior, displacements, shown);
+    for (std::size_t s = 0; s < known; ++s) amounts.amounts[points + s] = {shown[s], shown[s], shown[s], 0};
     for (std::size_t s = 0; s < weights.size(); ++s)
-        amounts.amounts[points + s] = {weights[s], weights[s], weights[s], 0};
+        amounts.amounts[points + known + s] = {weights[s], weights[s], weights[s], 0};
     add_map(amounts.maps, {});
     for (const Eyeball& eyeball : still.rig.eyeballs)
         add_map(amounts.maps, displacements.empty()

@@ -31,7 +31,7 @@ struct StillModel {
     // How it is posed: by the scene it came from, or by a rig and shapes.
     Scene scene;  ///< nodes and skins alone; without nodes when a Movement moves it
     SceneTables tables;
-    Rig rig;  ///< points and eyeballs alone
+    Rig rig;  ///< points, eyeballs and prior (its shapes without vertices) alone
     std::size_t shapes = 0;
 };
 

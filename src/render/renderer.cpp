@@ -98,6 +98,11 @@ void check_vertices(std::size_t expected, std::size_t found) {
         throw Error(fmt::format("render: expected one for each of the model's {} vertices, found {}", expected, found));
 }
 
+// The prior as far as it tells the weights of its shapes; the shapes themselves are on the device.
+Prior solve_of(const Prior& prior) {
+    return {std::vector<MorphTarget>(prior.shapes.size()), prior.response, prior.stiffness};
+}
+
 }  // namespace
 
 ModelId Renderer::Parts::add(Instance instance) {
@@ -132,6 +137,7 @@ ModelId Renderer::upload(const Scene& scene, const Movement& movement) {
     if (movement.rig != nullptr) {
         still.rig.points = movement.rig->points;
         still.rig.eyeballs = movement.rig->eyeballs;
+        if (movement.rig->prior) still.rig.prior = solve_of(*movement.rig->prior);
     }
     still.shapes = movement.shapes.size();
     Instance instance = make_instance(std::make_shared<const StillModel>(std::move(still)));

@@ -13,6 +13,7 @@
 
 #include "mien/mesh.hpp"
 #include "mien/picture.hpp"
+#include "mien/rig.hpp"
 #include "mien/scene.hpp"
 #include "mien/take.hpp"
 
@@ -24,6 +25,18 @@ inline bool keeps_promise(const MorphTarget& target, std::size_t vertices) {
     return target.deltas.size() == moved.size() && (moved.empty() || moved.back() < vertices) &&
            std::adjacent_find(moved.begin(), moved.end(), std::greater_equal<>()) == moved.end() &&
            std::all_of(target.deltas.begin(), target.deltas.end(), is_finite<float>);
+}
+
+/// Whether a rig's prior can be solved: all counts fit, and no motion shows no shape.
+inline bool keeps_promise(const Prior& prior, const Rig& rig) {
+    const std::size_t m = prior.shapes.size();
+    bool good = m <= Prior::most_shapes && prior.response.size() == m * rig.points.size() &&
+                (prior.stiffness.empty() || prior.stiffness.size() == m * m);
+    for (const MorphTarget& shape : prior.shapes) good = good && keeps_promise(shape, rig.rest.size());
+    if (!good) return false;
+    std::vector<float> weights(m);
+    shape_weights(prior, std::vector<Vec3f>(rig.points.size()), weights);
+    return std::all_of(weights.begin(), weights.end(), [](float w) { return w == 0; });
 }
 
 /// Whether the promise of every reader holds for this mesh.

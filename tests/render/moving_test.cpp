@@ -9,6 +9,8 @@
 
 #include "render/stage.hpp"
 
+#include "mien/algorithms/deform.hpp"
+
 namespace mien {
 namespace {
 
@@ -112,6 +114,38 @@ TEST_F(Moving, ShapesAndPointsAddUp) {
     std::vector<Vec3f> sum = expected(rig, moves);
     for (std::size_t v = 0; v < sum.size(); ++v) sum[v] += delta[v];
     EXPECT_LT(stage::farthest(positions(model), sum), 1e-6);
+    device().remove(model);
+}
+
+TEST_F(Moving, APriorAddsItsShapesBesideThoseThatAreGiven) {
+    const Mesh mesh = ball();
+    Rig rig = wild_rig(mesh.positions, 9, 4);
+    Numbers number;
+    Prior prior;
+    prior.shapes.resize(3);
+    MorphTarget given;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); v += 3) {
+        for (MorphTarget& shape : prior.shapes) {
+            shape.vertices.push_back(v);
+            shape.deltas.push_back(number.vec());
+        }
+        given.vertices.push_back(v);
+        given.deltas.push_back(number.vec());
+    }
+    for (int i = 0; i < 3 * 9; ++i) prior.response.push_back(to_double(number.vec()));
+    prior.stiffness = {2, 0.5, 0, 0.5, 3, -1, 0, -1, 2};
+    rig.prior = prior;
+    std::vector<Vec3f> moves(rig.points.size());
+    for (Vec3f& move : moves) move = 0.2F * number.vec();
+    const ModelId model = device().upload(stage::scene(mesh), {&rig, std::span(&given, 1)});
+    device().pose(model, moves, std::array{0.75F});
+    std::vector<Vec3f> sum(mesh.positions.size());
+    deform(rig, moves, sum);
+    EXPECT_GT(stage::farthest(sum, expected(rig, moves)), 0.01);
+    for (std::size_t i = 0; i < given.vertices.size(); ++i) sum[given.vertices[i]] += 0.75F * given.deltas[i];
+    EXPECT_LT(stage::farthest(positions(model), sum), 2e-6);
+    device().pose(model, std::span<const Vec3f>());
+    EXPECT_LT(stage::farthest(positions(model), mesh.positions), 1e-6);
     device().remove(model);
 }
 

@@ -12,7 +12,7 @@
 namespace mien {
 
 /// Moves every vertex by its row of the rig: eq. 5 of Kshirsagar et al. with the denominator folded in at bind time,
-/// which is also the skinning sum of Dutreve et al., section 3.1.
+/// which is also the skinning sum of Dutreve et al., section 3.1; a rig with a prior adds its shapes.
 ///
 /// `displacements`: one per rig point, from its neutral position, in the mesh's unit. `positions`: one per vertex,
 /// filled. Does not throw, allocate, lock or log; the result does not depend on threads.

@@ -29,7 +29,7 @@ struct RendererOptions {
 /// the shapes are those of the mesh in the same file (`Surface::mesh_vertices`; where a surface has none, its vertices
 /// count on from those of the surface before).
 struct Movement {
-    const Rig* rig = nullptr;             ///< weights of any sign, any number per vertex; eyeballs turn
+    const Rig* rig = nullptr;  ///< weights of any sign, any number per vertex; its prior's shapes; eyeballs turn
     std::span<const MorphTarget> shapes;  ///< moved by weights
 };
 
