@@ -23,6 +23,8 @@ namespace {
 void print(const Call& call) {
     if (call.flags.json)
         std::cout << as_json(call.report);
+    else if (!call.flags.quiet && !call.text.empty())
+        std::cout << call.text;
     else if (!call.flags.quiet)
         std::cout << as_lines(call.report, call.flags.verbose);
 }
@@ -55,6 +57,7 @@ int run(int argc, char** argv) {
     add_retarget(app, call);
     add_deform(app, call);
     add_render(app, call);
+    add_evaluate(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -65,6 +68,7 @@ int run(int argc, char** argv) {
     call.work();
     write_report(call);
     print(call);
+    if (!call.gate.empty()) throw GateError(call.gate);
     return 0;
 }
 

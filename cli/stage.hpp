@@ -38,6 +38,8 @@ struct LookFlags {
     bool software = false;
 };
 void add_look_flags(CLI::App& verb, LookFlags& flags);
+/// Those of them that every picture has: not which part of the head it shows, nor its points.
+void add_picture_flags(CLI::App& verb, LookFlags& flags);
 
 /// What the colours on a head mean instead of its materials.
 struct PaintFlags {

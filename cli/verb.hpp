@@ -29,6 +29,8 @@ struct Call {
     Common flags;
     std::function<void()> work;
     Report report = Report::object();
+    std::string text;  ///< what people read instead of the report's lines; empty: those
+    std::string gate;  ///< why a quality gate was not met, for verbs that tell all the same; empty: it was
 };
 
 /// A quality gate that the user asked for was not met (exit status 4).
@@ -48,5 +50,6 @@ void add_rig(CLI::App& app, Call& call);
 void add_retarget(CLI::App& app, Call& call);
 void add_deform(CLI::App& app, Call& call);
 void add_render(CLI::App& app, Call& call);
+void add_evaluate(CLI::App& app, Call& call);
 
 }  // namespace mien::cli
