@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
     add_deform(app, call);
     add_render(app, call);
     add_evaluate(app, call);
+    add_shapes(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

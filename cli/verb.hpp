@@ -51,5 +51,6 @@ void add_retarget(CLI::App& app, Call& call);
 void add_deform(CLI::App& app, Call& call);
 void add_render(CLI::App& app, Call& call);
 void add_evaluate(CLI::App& app, Call& call);
+void add_shapes(CLI::App& app, Call& call);
 
 }  // namespace mien::cli

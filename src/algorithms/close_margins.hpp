@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the mien authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithms/margins.hpp"
+#include "algorithms/shape_field.hpp"
+
+#include "mien/algorithms/weld.hpp"
+#include "mien/face.hpp"
+#include "mien/rig.hpp"
+
+namespace mien {
+
+/// What brings the two edges of slits together all along, and the skin around them with it: a sheet held at every place
+/// of the edges, with the feature points around them still.
+struct MarginCloser {
+    std::vector<Margin> margins;
+    Rig sheet;
+    std::vector<std::uint32_t> places;  ///< one per point of the sheet
+};
+MarginCloser fit_margin_closer(const Face& face, const Weld& weld, const EdgeGraph& graph);
+
+enum class Closing {
+    touch,       ///< the edges meet
+    as_at_rest,  ///< the edges lie to each other as they do at rest
+};
+
+/// Adds to `field` what closes one of the margins. `upper`: the share of the way that the upper edge goes, 0 to 1.
+void close_margin(const MarginCloser& closer, const Face& face, const Weld& weld, std::size_t margin, Closing closing,
+                  double upper, ShapeField& field);
+
+/// A place in the pocket behind a pair of lids, and the place of the lids' edge that it follows.
+struct PocketPlace {
+    std::uint32_t place = 0, edge = 0;
+    double share = 0;  ///< of the edge's motion: 1 at the edge, 0 from 0.15 eye distances behind it on
+};
+
+/// Skin that only the edges of lids part from the face: sockets that are closed behind the eyes. It would stretch over
+/// the eyeball where it followed the lids all the way, so it keeps still but for its rim.
+std::vector<PocketPlace> eye_pockets(const Face& face, const Weld& weld, const EdgeGraph& graph,
+                                     const std::vector<Margin>& margins);
+void follow_edges(const std::vector<PocketPlace>& pockets, ShapeField& field);
+
+/// Moves skin that lies outside an eyeball at rest and sinks into it out again.
+void keep_out_of_eyeballs(const Face& face, const Weld& weld, const Rig& rig, ShapeField& field);
+
+}  // namespace mien
