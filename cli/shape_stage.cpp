@@ -20,16 +20,16 @@ Affine upright(const Face& face) {
     return affine_map({}, back, {1, 1, 1});
 }
 
-// The face's points in their place; a third more above and below them for the forehead and an open mouth.
+// The face's points in their place, without ears and crown; some more above and below for brows and an open mouth.
 Box face_box(const Face& face, const Affine& place) {
     std::vector<Vec3> points;
     for (const FeaturePoint& point : face.points)
-        if (!point.id.starts_with("10.") && !point.id.starts_with("11."))
+        if (!point.id.starts_with("10.") && !point.id.starts_with("11.") && !point.id.starts_with("7."))
             points.push_back(moved(place, point.position));
     if (points.empty())
         for (const FeaturePoint& point : face.points) points.push_back(moved(place, point.position));
     Box box = bounding_box(points);
-    const double spare = 0.15 * (box.high.y - box.low.y);
+    const double spare = 0.18 * (box.high.y - box.low.y);
     box.low.y -= spare;
     box.high.y += spare;
     return box;

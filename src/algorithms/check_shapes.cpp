@@ -105,6 +105,8 @@ void count_flipped(const Face& face, std::span<const MorphTarget> shapes, Shapes
     for (const MorphTarget& shape : shapes) {
         Positions positions = rest;
         add(shape, positions);
+        const MorphTarget* with = shape.name == "mouthClose" ? find(shapes, "jawOpen") : nullptr;
+        if (with != nullptr) add(*with, positions);
         std::size_t moved = 0, flipped = 0;
         for (std::size_t f = 0; f < face_count(face.mesh); ++f) {
             const auto corners = mien::face(face.mesh, f);

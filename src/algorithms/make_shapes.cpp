@@ -33,8 +33,9 @@ namespace mien {
 namespace {
 
 constexpr double upper_lip_of_jaw_open = 0.3;
-constexpr double upper_lid_of_blink = 0.95;  // its share of the way that is left
-constexpr double upper_lip_of_close = 0.3;
+// The upper edge's share of the way that is left at first; then what is left between their vertices is shared alike.
+constexpr double upper_lid_of_blink = 0.95, upper_lip_of_close = 0.3;
+constexpr double small_mouth = 0.8;   // of the table's width, by the eye distance
 constexpr double least_delta = 2e-5;  // in eye distances: shorter ones are left out
 constexpr double degrees = 3.14159265358979323846 / 180;
 
@@ -70,7 +71,8 @@ struct Maker {
     EdgeGraph graph;
     double eyes = 1;
     Quaternion turn;
-    Vec3 origin;  // between the eyes
+    Vec3 origin;            // between the eyes
+    double lower_face = 1;  // share of the motion that the table has
     Retarget with_contact, linear;
     std::vector<std::size_t> in_map;  // of each rig point: its number in the maps, or no_point
     MarginCloser closer;
@@ -98,9 +100,23 @@ Vec3 middle_of_eyes(const Maker& maker) {
     return count > 0 ? sum / count : maker.face.points.front().position;
 }
 
+// How much of the lower face's motion a small mouth can take: a muzzle would be torn by the jaw of a face whose mouth
+// is three times as wide. In proportion to its width below 0.8 of the usual one.
+double lower_face_share(std::span<const FeaturePoint> points) {
+    const auto a = find_point(points, "8.3") ? find_point(points, "8.3") : find_point(points, "2.4");
+    const auto b = find_point(points, "8.4") ? find_point(points, "8.4") : find_point(points, "2.5");
+    const double eyes = eye_distance(points);
+    if (!a || !b || !(eyes > 0)) return 1;
+    const double usual = distance(*arkit_neutral(points[*a].id), *arkit_neutral(points[*b].id));
+    return std::min(1.0, distance(points[*a].position, points[*b].position) / (eyes * usual * small_mouth));
+}
+
 Motions table_motions(const Maker& maker, std::string_view shape) {
     Motions motions;
-    for (const std::string& id : maker.with_contact.points) motions.push_back(arkit_motion(shape, id));
+    for (const std::string& id : maker.with_contact.points) {
+        const bool upper_face = id.starts_with("3.") || id.starts_with("4.") || id.starts_with("11.");
+        motions.push_back((upper_face ? 1 : maker.lower_face) * arkit_motion(shape, id));
+    }
     return motions;
 }
 
@@ -223,7 +239,8 @@ void close_lids(const Maker& maker, std::string_view shape, ShapeField& field) {
     if (!left && shape != "eyeBlinkRight") return;
     for (std::size_t m = 0; m < maker.closer.margins.size(); ++m)
         if (maker.closer.margins[m].kind == (left ? Margin::Kind::left_lids : Margin::Kind::right_lids))
-            close_margin(maker.closer, maker.face, maker.weld, m, Closing::touch, upper_lid_of_blink, field);
+            for (const double upper : {upper_lid_of_blink, 0.5, 0.5, 0.5})
+                close_margin(maker.closer, maker.face, maker.weld, m, Closing::touch, upper, field);
 }
 
 std::optional<Vec3> between_lips(const Face& face) {
@@ -256,7 +273,8 @@ void close_lips(const Maker& maker, Fields& fields) {
     const ShapeField before = both;
     for (std::size_t m = 0; m < maker.closer.margins.size(); ++m)
         if (maker.closer.margins[m].kind == Margin::Kind::lips)
-            close_margin(maker.closer, maker.face, maker.weld, m, Closing::as_at_rest, upper_lip_of_close, both);
+            for (const double upper : {upper_lip_of_close, 0.5, 0.5})
+                close_margin(maker.closer, maker.face, maker.weld, m, Closing::as_at_rest, upper, both);
     for (std::size_t p = 0; p < both.size(); ++p) close[p] += both[p] - before[p];
 }
 
@@ -389,11 +407,12 @@ void check(const Face& face, const Rig& rig, const ShapesOptions& options) {
 }
 
 Maker maker_of(const Face& face, const Rig& rig, const ShapesOptions& options) {
-    Maker maker{face, rig, options, weld(face.mesh), {}, eye_distance(face.points), {}, {}, {}, {}, {}, {}, {}, {},
+    Maker maker{face, rig, options, weld(face.mesh), {}, eye_distance(face.points), {}, {}, 1, {}, {}, {}, {}, {}, {},
                 {},   {},  {}};
     maker.graph = edge_graph(face.mesh, maker.weld);
     maker.turn = face_turn(face.points).value_or(Quaternion{});
     maker.origin = middle_of_eyes(maker);
+    maker.lower_face = lower_face_share(face.points);
     RetargetOptions retargeting;
     retargeting.method = options.method;
     maker.with_contact = fit_retarget(neutral_take(face.points), face, retargeting);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "mien/algorithms/attach.hpp"
+
 namespace mien {
 
 namespace {
@@ -85,13 +87,15 @@ std::optional<MirrorMap> mirror_map(const Face& face, const Weld& weld) {
     for (std::uint32_t p = 0; p < places; ++p) cells.places.emplace(cell_of(place_of(cells, p), cells.size), p);
     for (std::uint32_t p = 0; p < places; ++p)
         map->partner.push_back(nearest(cells, mirrored(*map, place_of(cells, p)) + (2 * map->offset) * map->across));
-    std::size_t lone = 0;
+    const std::vector<bool> is_skin = solved_places(face, weld);
+    std::size_t lone = 0, skin = 0;
     for (std::uint32_t p = 0; p < places; ++p) {
         std::uint32_t& other = map->partner[p];
         if (other != no_partner && map->partner[other] != p) other = no_partner;
-        lone += other == no_partner ? 1U : 0U;
+        skin += is_skin[p] ? 1U : 0U;
+        lone += is_skin[p] && other == no_partner ? 1U : 0U;
     }
-    if (static_cast<double>(lone) > most_lone * static_cast<double>(places)) return std::nullopt;
+    if (static_cast<double>(lone) > most_lone * static_cast<double>(skin)) return std::nullopt;
     return map;
 }
 

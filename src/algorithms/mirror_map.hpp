@@ -19,11 +19,11 @@ inline constexpr std::uint32_t no_partner = ~0U;
 struct MirrorMap {
     Vec3 across;                         ///< from one half to the other, of length 1
     double offset = 0;                   ///< of the plane: points p on it have dot(across, p) = offset
-    std::vector<std::uint32_t> partner;  ///< one per place: itself on the plane, no_partner for few
+    std::vector<std::uint32_t> partner;  ///< one per place: itself on the plane, no_partner where there is none
 };
 
 /// Nothing when the head is not symmetric: when the face's points come in fewer than two pairs, or when more than one
-/// place in a thousand has no counterpart within 1e-3 of the eye distance.
+/// place of the skin in a thousand has no counterpart within 1e-3 of the eye distance.
 std::optional<MirrorMap> mirror_map(const Face& face, const Weld& weld);
 
 /// A displacement as the mirror shows it.
