@@ -14,6 +14,7 @@
 #include <limits>
 #include <queue>
 #include <set>
+#include <string_view>
 
 #include "mien/algorithms/deform.hpp"
 #include "mien/algorithms/rig_biharmonic.hpp"
@@ -36,6 +37,10 @@ std::vector<std::uint32_t> handles_of(const std::vector<Margin>& margins) {
     return {handles.begin(), handles.end()};
 }
 
+bool is_fold(std::string_view id) {
+    return id == "3.9" || id == "3.10" || id == "3.13" || id == "3.14";
+}
+
 }  // namespace
 
 MarginCloser fit_margin_closer(const Face& face, const Weld& weld, const EdgeGraph& graph) {
@@ -49,7 +54,7 @@ MarginCloser fit_margin_closer(const Face& face, const Weld& weld, const EdgeGra
         taken.insert(place);
     }
     for (const FeaturePoint& point : face.points) {
-        if (!taken.insert(weld.place[point.vertex]).second) continue;
+        if (is_fold(point.id) || !taken.insert(weld.place[point.vertex]).second) continue;
         held.points.push_back(point);
         held.points.back().moves = {};
         closer.places.push_back(weld.place[point.vertex]);
@@ -89,6 +94,14 @@ Vec3 way_to(const MovedEdge& other, std::uint32_t place, double along, const Fac
     return closing == Closing::touch ? way : way - (value_on(met, rest) - rest(place));
 }
 
+ShapeField drawn(const MarginCloser& closer, const Weld& weld, const std::vector<Vec3f>& moves) {
+    std::vector<Vec3f> moved(vertex_count(closer.sheet));
+    deform(closer.sheet, moves, moved);
+    ShapeField field;
+    for (const std::uint32_t v : weld.vertex) field.push_back(to_double(moved[v]) - to_double(closer.sheet.rest[v]));
+    return field;
+}
+
 }  // namespace
 
 void close_margin(const MarginCloser& closer, const Face& face, const Weld& weld, std::size_t margin, Closing closing,
@@ -108,10 +121,14 @@ void close_margin(const MarginCloser& closer, const Face& face, const Weld& weld
     };
     send(above, below, upper);
     send(below, above, 1 - upper);
-    std::vector<Vec3f> moved(vertex_count(closer.sheet));
-    deform(closer.sheet, moves, moved);
-    for (std::uint32_t p = 0; p < field.size(); ++p)
-        field[p] += to_double(moved[weld.vertex[p]]) - to_double(closer.sheet.rest[weld.vertex[p]]);
+    const ShapeField add = drawn(closer, weld, moves);
+    for (std::uint32_t p = 0; p < field.size(); ++p) field[p] += add[p];
+}
+
+ShapeField drawn_by_edges(const MarginCloser& closer, const Weld& weld, const ShapeField& field) {
+    std::vector<Vec3f> moves;
+    for (const std::uint32_t p : closer.places) moves.push_back(to_float(field[p]));
+    return drawn(closer, weld, moves);
 }
 
 namespace {
@@ -194,17 +211,57 @@ void follow_edges(const std::vector<PocketPlace>& pockets, ShapeField& field) {
 namespace {
 
 constexpr double clearance = 1.01;  // of the eyeball's radius
-constexpr double cone = 0.97;       // cosine of the angle within which an eyeball's vertices say how large it is there
+constexpr double sharpness = 90;    // of how an eyeball's vertices say how large it is in a direction: within 8 degrees
 constexpr double reach = 1.6;       // of the eyeball's radius: skin beyond is not at the eye
+constexpr double behind = 0.85;     // of the radius: skin at rest nearer to the centre is not before the eye
 
-// How far an eyeball's surface lies from its centre in a direction of length 1.
-double radius_towards(const std::vector<Vec3>& surface, const Vec3& direction) {
-    double radius = 0;
-    for (const Vec3& p : surface) {
+// An eyeball as vertices seen from its centre.
+struct Ball {
+    Vec3 centre;
+    std::vector<Vec3> surface;
+    double largest = 0;
+};
+
+// How far its surface lies from its centre in a direction of length 1: smooth, where a pupil or a cornea stands out
+// too.
+double radius_towards(const Ball& ball, const Vec3& direction) {
+    double sum = 0, weights = 1e-300;
+    for (const Vec3& p : ball.surface) {
         const double r = length(p);
-        if (dot(p, direction) >= cone * r) radius = std::max(radius, r);
+        const double weight = r > 0.5 * ball.largest ? std::exp(sharpness * (dot(p, direction) / r - 1)) : 0;
+        sum += weight * r;
+        weights += weight;
     }
-    return radius;
+    return sum / weights;
+}
+
+// Each eyeball at rest and as a field turns it.
+struct Turned {
+    Ball rest, moved;
+};
+
+std::vector<Turned> eyeballs(const Face& face, const Weld& weld, const Rig& rig, const ShapeField& field) {
+    std::vector<Turned> balls;
+    for (const Eyeball& eyeball : rig.eyeballs) {
+        Ball rest{eyeball.centre, {}, 0}, moved = rest;
+        for (const std::uint32_t v : eyeball.vertices) {
+            rest.surface.push_back(to_double(face.mesh.positions[v]) - eyeball.centre);
+            moved.surface.push_back(rest.surface.back() + field[weld.place[v]]);
+            rest.largest = std::max(rest.largest, length(rest.surface.back()));
+        }
+        moved.largest = rest.largest;
+        balls.push_back({std::move(rest), std::move(moved)});
+    }
+    return balls;
+}
+
+// Sends a place out along the line from the eyeball's centre until it is at that share of the radius there.
+void keep_at(const Ball& ball, double share, const Vec3& rest, Vec3& delta) {
+    const Vec3 moved = rest + delta;
+    const double after = length(moved);
+    if (!(after > 0) || after > share * ball.largest) return;
+    const double least = share * radius_towards(ball, moved / after);
+    if (after < least) delta = (least / after) * moved - rest;
 }
 
 }  // namespace
@@ -213,23 +270,27 @@ void keep_out_of_eyeballs(const Face& face, const Weld& weld, const Rig& rig, Sh
     std::vector<bool> is_eye(weld.vertex.size(), false);
     for (const Eyeball& eyeball : rig.eyeballs)
         for (const std::uint32_t v : eyeball.vertices) is_eye[weld.place[v]] = true;
-    for (const Eyeball& eyeball : rig.eyeballs) {
-        std::vector<Vec3> surface;
-        double largest = 0;
-        for (const std::uint32_t v : eyeball.vertices) {
-            surface.push_back(to_double(face.mesh.positions[v]) - eyeball.centre);
-            largest = std::max(largest, length(surface.back()));
-        }
+    for (const Turned& ball : eyeballs(face, weld, rig, field))
         for (std::uint32_t p = 0; p < field.size(); ++p) {
             if (is_eye[p] || field[p] == Vec3{}) continue;
-            const Vec3 rest = at_rest(face, weld, p) - eyeball.centre, moved = rest + field[p];
-            const double before = length(rest), after = length(moved);
-            if (before > reach * largest || !(after > 0) || after > clearance * largest) continue;
-            if (before < radius_towards(surface, rest / before)) continue;
-            const double least = clearance * radius_towards(surface, moved / after);
-            if (after < least) field[p] = (least / after) * moved - rest;
+            const Vec3 rest = at_rest(face, weld, p) - ball.rest.centre;
+            const double before = length(rest);
+            if (before > reach * ball.rest.largest || !(before > 0)) continue;
+            const double share = before / radius_towards(ball.rest, rest / before);
+            if (share > behind) keep_at(ball.moved, std::min(share, clearance), rest, field[p]);
         }
-    }
+}
+
+void edges_before_eyeballs(const Margin& margin, const Face& face, const Weld& weld, const Rig& rig,
+                           ShapeField& field) {
+    const std::vector<Turned> balls = eyeballs(face, weld, rig, field);
+    for (const std::uint32_t p : handles_of({margin}))
+        for (const Turned& ball : balls) {
+            const Vec3 rest = at_rest(face, weld, p) - ball.rest.centre;
+            // The corners stay: both edges end there.
+            const bool corner = p == margin.upper.front() || p == margin.upper.back();
+            if (!corner && length(rest) < reach * ball.rest.largest) keep_at(ball.moved, clearance, rest, field[p]);
+        }
 }
 
 }  // namespace mien

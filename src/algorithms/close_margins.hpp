@@ -16,7 +16,8 @@
 namespace mien {
 
 /// What brings the two edges of slits together all along, and the skin around them with it: a sheet held at every place
-/// of the edges, with the feature points around them still.
+/// of the edges and at the feature points around them. The folds beside the lids (3.9, 3.10, 3.13, 3.14) are free: held
+/// where they are, they would stand out of the skin that a closing lid draws over the eye.
 struct MarginCloser {
     std::vector<Margin> margins;
     Rig sheet;
@@ -33,6 +34,9 @@ enum class Closing {
 void close_margin(const MarginCloser& closer, const Face& face, const Weld& weld, std::size_t margin, Closing closing,
                   double upper, ShapeField& field);
 
+/// The field once more, from what it does to the sheet's places alone: smooth around edges that were moved one by one.
+ShapeField drawn_by_edges(const MarginCloser& closer, const Weld& weld, const ShapeField& field);
+
 /// A place in the pocket behind a pair of lids, and the place of the lids' edge that it follows.
 struct PocketPlace {
     std::uint32_t place = 0, edge = 0;
@@ -45,7 +49,11 @@ std::vector<PocketPlace> eye_pockets(const Face& face, const Weld& weld, const E
                                      const std::vector<Margin>& margins);
 void follow_edges(const std::vector<PocketPlace>& pockets, ShapeField& field);
 
-/// Moves skin that lies outside an eyeball at rest and sinks into it out again.
+/// Keeps skin out of the eyeballs: where it slides over one it stays at least as far outside as at rest, by the share
+/// of the radius there, or at 1.01 of it. Eyeballs are taken as the field turns them.
 void keep_out_of_eyeballs(const Face& face, const Weld& weld, const Rig& rig, ShapeField& field);
+
+/// Moves the edges of a pair of lids before the eyeballs, where they were tucked in behind their front.
+void edges_before_eyeballs(const Margin& margin, const Face& face, const Weld& weld, const Rig& rig, ShapeField& field);
 
 }  // namespace mien

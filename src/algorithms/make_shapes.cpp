@@ -237,10 +237,14 @@ void turn_eyeballs(const Maker& maker, std::string_view shape, ShapeField& field
 void close_lids(const Maker& maker, std::string_view shape, ShapeField& field) {
     const bool left = shape == "eyeBlinkLeft";
     if (!left && shape != "eyeBlinkRight") return;
-    for (std::size_t m = 0; m < maker.closer.margins.size(); ++m)
-        if (maker.closer.margins[m].kind == (left ? Margin::Kind::left_lids : Margin::Kind::right_lids))
-            for (const double upper : {upper_lid_of_blink, 0.5, 0.5, 0.5})
-                close_margin(maker.closer, maker.face, maker.weld, m, Closing::touch, upper, field);
+    const MarginCloser& closer = maker.closer;
+    for (std::size_t m = 0; m < closer.margins.size(); ++m) {
+        if (closer.margins[m].kind != (left ? Margin::Kind::left_lids : Margin::Kind::right_lids)) continue;
+        for (const double upper : {upper_lid_of_blink, 0.5, 0.5, 0.5})
+            close_margin(closer, maker.face, maker.weld, m, Closing::touch, upper, field);
+        edges_before_eyeballs(closer.margins[m], maker.face, maker.weld, maker.rig, field);
+        field = drawn_by_edges(closer, maker.weld, field);
+    }
 }
 
 std::optional<Vec3> between_lips(const Face& face) {
@@ -255,8 +259,8 @@ ShapeField make_field(const Maker& maker, std::string_view shape) {
     ShapeField field = spread(maker, point_motions(maker, shape));
     close_lids(maker, shape, field);
     if (shape.starts_with("eye")) {
-        keep_out_of_eyeballs(maker.face, maker.weld, maker.rig, field);
         turn_eyeballs(maker, shape, field);
+        keep_out_of_eyeballs(maker.face, maker.weld, maker.rig, field);
     }
     follow_edges(maker.pockets, field);
     const auto lips = between_lips(maker.face);
