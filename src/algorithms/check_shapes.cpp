@@ -29,20 +29,15 @@ void add(const MorphTarget& shape, Positions& positions) {
     for (std::size_t i = 0; i < shape.vertices.size(); ++i) positions[shape.vertices[i]] += shape.deltas[i];
 }
 
-// The slit's openings from corner to corner.
 struct Ruler {
     const Face& face;
     const Weld& weld;
     const Margin& margin;
-    std::vector<Opposite> places;
 };
 
 std::vector<double> openings(const Ruler& ruler, const Positions& positions) {
     const auto at = [&](std::uint32_t p) { return to_double(positions[ruler.weld.vertex[p]]); };
-    std::vector<double> result;
-    for (const Opposite& place : ruler.places)
-        result.push_back(dot(ruler.margin.up, value_on(place.upper, at) - value_on(place.lower, at)));
-    return result;
+    return openings(ruler.margin, at, places_along_a_slit);
 }
 
 Openness range(const std::vector<double>& values, double whole) {
@@ -66,7 +61,7 @@ void check_slit(const Ruler& ruler, std::span<const MorphTarget> shapes, ShapesC
         if (height > 0) (left ? check.blink_left : check.blink_right) = range(left_open, height);
         return;
     }
-    const std::size_t middle = ruler.places.size() / 2;
+    const std::size_t middle = places_along_a_slit / 2;
     const double opened = left_open[middle] - at_rest[middle];
     add(*close, moved);
     left_open = openings(ruler, moved);
@@ -136,8 +131,7 @@ ShapesCheck check_shapes(const Face& face, std::span<const MorphTarget> shapes) 
     ShapesCheck check;
     const Weld joined = weld(face.mesh);
     const EdgeGraph graph = edge_graph(face.mesh, joined);
-    for (const Margin& margin : find_margins(face, joined, graph))
-        check_slit({face, joined, margin, opposite_places(margin, face, joined, places_along_a_slit)}, shapes, check);
+    for (const Margin& margin : find_margins(face, joined, graph)) check_slit({face, joined, margin}, shapes, check);
     check.upper_lip = upper_lip_share(face, shapes);
     count_flipped(face, shapes, check);
     return check;

@@ -125,6 +125,27 @@ void close_margin(const MarginCloser& closer, const Face& face, const Weld& weld
     for (std::uint32_t p = 0; p < field.size(); ++p) field[p] += add[p];
 }
 
+void arch_edges(const MarginCloser& closer, const Face& face, const Weld& weld, std::size_t margin, ShapeField& field) {
+    const Margin& slit = closer.margins[margin];
+    std::vector<Vec3f> moves(closer.places.size());
+    for (const auto& [edge, point] : {std::pair{&slit.upper, 0U}, {&slit.lower, 1U}}) {
+        const std::uint32_t middle = weld.place[face.points[slit.points[point]].vertex];
+        const std::vector<double> along = along_chord(*edge, face, weld);
+        const auto at = static_cast<std::size_t>(std::find(edge->begin(), edge->end(), middle) - edge->begin());
+        if (at >= along.size() || !(along[at] > 0 && along[at] < 1)) continue;
+        const auto straight = [&](double t) { return (1 - t) * field[edge->front()] + t * field[edge->back()]; };
+        const Vec3 bow = field[middle] - straight(along[at]);
+        for (std::size_t i = 1; i + 1 < edge->size(); ++i) {
+            const double t = along[i] < along[at] ? along[i] / along[at] : (1 - along[i]) / (1 - along[at]);
+            const Vec3 wanted = straight(along[i]) + (t * (2 - t)) * bow;
+            const auto handle = std::find(closer.places.begin(), closer.places.end(), (*edge)[i]);
+            moves[static_cast<std::size_t>(handle - closer.places.begin())] = to_float(wanted - field[(*edge)[i]]);
+        }
+    }
+    const ShapeField add = drawn(closer, weld, moves);
+    for (std::uint32_t p = 0; p < field.size(); ++p) field[p] += add[p];
+}
+
 ShapeField drawn_by_edges(const MarginCloser& closer, const Weld& weld, const ShapeField& field) {
     std::vector<Vec3f> moves;
     for (const std::uint32_t p : closer.places) moves.push_back(to_float(field[p]));

@@ -34,6 +34,10 @@ enum class Closing {
 void close_margin(const MarginCloser& closer, const Face& face, const Weld& weld, std::size_t margin, Closing closing,
                   double upper, ShapeField& field);
 
+/// Adds to `field` what makes the motion of a slit's edges an even arch (a parabola over the chord) from the corners to
+/// the points in the middle, which keep theirs: a lid that one point moves hangs down there like a tent turned over.
+void arch_edges(const MarginCloser& closer, const Face& face, const Weld& weld, std::size_t margin, ShapeField& field);
+
 /// The field once more, from what it does to the sheet's places alone: smooth around edges that were moved one by one.
 ShapeField drawn_by_edges(const MarginCloser& closer, const Weld& weld, const ShapeField& field);
 

@@ -75,6 +75,7 @@ struct Maker {
     double lower_face = 1;  // share of the motion that the table has
     Retarget with_contact, linear;
     std::vector<std::size_t> in_map;  // of each rig point: its number in the maps, or no_point
+    Face driven;                      // with the points that the table knows; what the closer's margins count by
     MarginCloser closer;
     std::vector<PocketPlace> pockets;
     std::optional<MirrorMap> mirror;
@@ -234,6 +235,13 @@ void turn_eyeballs(const Maker& maker, std::string_view shape, ShapeField& field
     }
 }
 
+void arch_lids(const Maker& maker, std::string_view shape, ShapeField& field) {
+    for (std::size_t m = 0; m < maker.closer.margins.size(); ++m)
+        if (maker.closer.margins[m].kind ==
+            (shape.ends_with("Left") ? Margin::Kind::left_lids : Margin::Kind::right_lids))
+            arch_edges(maker.closer, maker.driven, maker.weld, m, field);
+}
+
 void close_lids(const Maker& maker, std::string_view shape, ShapeField& field) {
     const bool left = shape == "eyeBlinkLeft";
     if (!left && shape != "eyeBlinkRight") return;
@@ -257,8 +265,9 @@ std::optional<Vec3> between_lips(const Face& face) {
 
 ShapeField make_field(const Maker& maker, std::string_view shape) {
     ShapeField field = spread(maker, point_motions(maker, shape));
-    close_lids(maker, shape, field);
     if (shape.starts_with("eye")) {
+        arch_lids(maker, shape, field);
+        close_lids(maker, shape, field);
         turn_eyeballs(maker, shape, field);
         keep_out_of_eyeballs(maker.face, maker.weld, maker.rig, field);
     }
@@ -411,8 +420,9 @@ void check(const Face& face, const Rig& rig, const ShapesOptions& options) {
 }
 
 Maker maker_of(const Face& face, const Rig& rig, const ShapesOptions& options) {
-    Maker maker{face, rig, options, weld(face.mesh), {}, eye_distance(face.points), {}, {}, 1, {}, {}, {}, {}, {}, {},
-                {},   {},  {}};
+    Maker maker{
+        face, rig, options, weld(face.mesh), {}, eye_distance(face.points), {}, {}, 1, {}, {}, {}, {}, {}, {}, {},
+        {},   {},  {}};
     maker.graph = edge_graph(face.mesh, maker.weld);
     maker.turn = face_turn(face.points).value_or(Quaternion{});
     maker.origin = middle_of_eyes(maker);
@@ -426,7 +436,8 @@ Maker maker_of(const Face& face, const Rig& rig, const ShapesOptions& options) {
         const auto found = std::find(ids.begin(), ids.end(), point.id);
         maker.in_map.push_back(found == ids.end() ? no_point : static_cast<std::size_t>(found - ids.begin()));
     }
-    maker.closer = fit_margin_closer(with_points(face, shape_points(face)), maker.weld, maker.graph);
+    maker.driven = with_points(face, shape_points(face));
+    maker.closer = fit_margin_closer(maker.driven, maker.weld, maker.graph);
     maker.pockets = eye_pockets(face, maker.weld, maker.graph, maker.closer.margins);
     maker.mirror = mirror_map(face, maker.weld);
     return maker;

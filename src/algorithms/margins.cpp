@@ -132,6 +132,23 @@ std::vector<Opposite> opposite_places(const Margin& margin, const Face& face, co
     return places;
 }
 
+std::vector<double> openings(const Margin& margin, const std::function<Vec3(std::uint32_t)>& at, std::size_t count) {
+    const Vec3 start = at(margin.upper.front()), chord = at(margin.upper.back()) - start;
+    const auto along = [&](const std::vector<std::uint32_t>& edge) {
+        std::vector<double> shares;
+        for (const std::uint32_t p : edge) shares.push_back(dot(at(p) - start, chord) / dot(chord, chord));
+        return shares;
+    };
+    const std::vector<double> upper = along(margin.upper), lower = along(margin.lower);
+    std::vector<double> result;
+    for (std::size_t i = 1; i <= count; ++i) {
+        const double step = static_cast<double>(i) / static_cast<double>(count + 1);
+        const Vec3 above = value_on(on_edge(margin.upper, upper, step), at);
+        result.push_back(dot(margin.up, above - value_on(on_edge(margin.lower, lower, step), at)));
+    }
+    return result;
+}
+
 Vec3 value_on(const OnEdge& place, const std::function<Vec3(std::uint32_t)>& at) {
     return (1 - place.share) * at(place.from) + place.share * at(place.to);
 }

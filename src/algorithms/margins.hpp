@@ -40,6 +40,11 @@ struct Opposite {
 };
 std::vector<Opposite> opposite_places(const Margin& margin, const Face& face, const Weld& weld, std::size_t count);
 
+/// How far a slit is open at even steps of the chord between its corners, once its places have moved to where `at`
+/// says: upper less lower edge along `margin.up`, both where they lie on the same line across the chord then.
+std::vector<double> openings(const Margin& margin, const std::function<Vec3(std::uint32_t place)>& at,
+                             std::size_t count);
+
 /// Where along the chord between the corners (0 to 1, clamped) each place of an edge lies.
 std::vector<double> along_chord(const std::vector<std::uint32_t>& edge, const Face& face, const Weld& weld);
 
