@@ -16,7 +16,7 @@ namespace mien {
 namespace {
 
 constexpr ShapePart PP[] = {{"mouthRollLower", 0.35}, {"mouthRollUpper", 0.4}, {"mouthPress", 0.35}};
-constexpr ShapePart FF[] = {{"mouthRollLower", 0.6}, {"mouthUpperUp", 0.3}, {"mouthShrugLower", 0.15}};
+constexpr ShapePart FF[] = {{"mouthRollLower", 0.6}, {"mouthUpperUp", 0.45}, {"mouthShrugLower", 0.2}};
 constexpr ShapePart TH[] = {{"jawOpen", 0.14}, {"mouthLowerDown", 0.2}, {"mouthUpperUp", 0.12}, {"tongueOut", 0.45}};
 constexpr ShapePart DD[] = {{"jawOpen", 0.1}, {"mouthLowerDown", 0.35}, {"mouthUpperUp", 0.15}, {"mouthStretch", 0.15}};
 constexpr ShapePart kk[] = {{"jawOpen", 0.18}, {"mouthLowerDown", 0.2}, {"mouthUpperUp", 0.2}};
@@ -31,11 +31,11 @@ constexpr ShapePart E[] = {
 constexpr ShapePart I[] = {
     {"jawOpen", 0.12}, {"mouthSmile", 0.4}, {"mouthStretch", 0.2}, {"mouthLowerDown", 0.2}, {"mouthUpperUp", 0.1}};
 constexpr ShapePart O[] = {{"jawOpen", 0.4}, {"mouthFunnel", 0.5}, {"mouthPucker", 0.15}};
-constexpr ShapePart U[] = {{"mouthPucker", 0.7}, {"mouthFunnel", 0.15}, {"jawOpen", 0.1}};
+constexpr ShapePart U[] = {{"mouthPucker", 0.75}, {"mouthFunnel", 0.15}, {"jawOpen", 0.05}};
 
 constexpr ShapePart happy[] = {{"mouthSmile", 0.9}, {"cheekSquint", 0.6}, {"eyeSquint", 0.4}};
 constexpr ShapePart angry[] = {
-    {"browDown", 1}, {"noseSneer", 0.35}, {"eyeSquint", 0.4}, {"mouthFrown", 0.5}, {"mouthPress", 0.4}};
+    {"browDown", 1.3}, {"noseSneer", 0.4}, {"eyeSquint", 0.5}, {"mouthFrown", 0.6}, {"mouthShrugLower", 0.15}};
 constexpr ShapePart sad[] = {
     {"browInnerUp", 1}, {"mouthFrown", 0.9}, {"mouthShrugLower", 0.3}, {"eyeLookDown", 0.2}, {"eyeBlink", 0.12}};
 constexpr ShapePart relaxed[] = {{"mouthSmile", 0.4}, {"cheekSquint", 0.2}, {"eyeBlink", 0.3}, {"browInnerUp", 0.15}};

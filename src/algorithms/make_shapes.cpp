@@ -4,8 +4,7 @@
 // From the table to the head, shape by shape: points by one linear map each (docs/methods.md), skin by the rig, then
 // what has to be true of a shape whatever points say. Where this departs from the table:
 //
-// - jawOpen of the table lets the upper lip sink by 6 % of what the lower does, because one sculptor's did; a jaw does
-//   not. Upper lip and nose get 0.3 of it.
+// - jawOpen leaves the upper lip alone, and a small mouth moves in proportion (shape_table.hpp).
 // - mouthClose is not retargeted: contact would stop the lips of that motion alone, which cross. It is the difference
 //   of two frames, jawOpen with mouthClose, in contact, less the jawOpen that is written.
 // - Shapes of a symmetric head are averaged with their mirror images: then they are mirrors to the last bit.
@@ -18,10 +17,10 @@
 #include <map>
 #include <optional>
 
-#include "algorithms/arkit_motions.hpp"
 #include "algorithms/close_margins.hpp"
 #include "algorithms/mirror_map.hpp"
 #include "algorithms/shape_style.hpp"
+#include "algorithms/shape_table.hpp"
 #include "algorithms/tongue.hpp"
 
 #include "mien/algorithms/deform.hpp"
@@ -32,7 +31,6 @@ namespace mien {
 
 namespace {
 
-constexpr double upper_lip_of_jaw_open = 0.3;
 // The upper edge's share of the way that is left at first; then what is left between their vertices is shared alike.
 constexpr double upper_lid_of_blink = 0.95, upper_lip_of_close = 0.3;
 constexpr double small_mouth = 0.8;   // of the table's width, by the eye distance
@@ -41,27 +39,6 @@ constexpr double degrees = 3.14159265358979323846 / 180;
 
 using Motions = std::vector<Vec3>;  // one per point of the rig
 using Fields = std::map<std::string_view, ShapeField>;
-
-// On the skin, and known to the table. Teeth and tongue move with what they are attached to.
-bool is_driven(std::string_view id) {
-    return arkit_neutral(id) && !id.starts_with("6.") && id != "3.5" && id != "3.6" && id != "9.8" && id != "9.9" &&
-           id != "9.10" && id != "9.11";
-}
-
-// The table's face at rest, as a performer.
-Take neutral_take(std::span<const FeaturePoint> points) {
-    Take take;
-    take.times = {0};
-    for (const FeaturePoint& point : points) {
-        if (!is_driven(point.id)) continue;
-        take.points.push_back(point.id);
-        take.samples.push_back(*arkit_neutral(point.id));
-    }
-    if (take.points.size() < 3)
-        throw Error(fmt::format("shapes: expected three or more of the feature points of MPEG-4 on the skin, found {}",
-                                take.points.size()));
-    return take;
-}
 
 struct Maker {
     const Face& face;
@@ -99,39 +76,6 @@ Vec3 middle_of_eyes(const Maker& maker) {
     if (count > 0) return sum / count;
     for (const Eyeball& eyeball : maker.rig.eyeballs) sum += eyeball.centre, count += 1;
     return count > 0 ? sum / count : maker.face.points.front().position;
-}
-
-// How much of the lower face's motion a small mouth can take: a muzzle would be torn by the jaw of a face whose mouth
-// is three times as wide. In proportion to its width below 0.8 of the usual one.
-double lower_face_share(std::span<const FeaturePoint> points) {
-    const auto a = find_point(points, "8.3") ? find_point(points, "8.3") : find_point(points, "2.4");
-    const auto b = find_point(points, "8.4") ? find_point(points, "8.4") : find_point(points, "2.5");
-    const double eyes = eye_distance(points);
-    if (!a || !b || !(eyes > 0)) return 1;
-    const double usual = distance(*arkit_neutral(points[*a].id), *arkit_neutral(points[*b].id));
-    return std::min(1.0, distance(points[*a].position, points[*b].position) / (eyes * usual * small_mouth));
-}
-
-Motions table_motions(const Maker& maker, std::string_view shape) {
-    Motions motions;
-    for (const std::string& id : maker.with_contact.points) {
-        const bool upper_face = id.starts_with("3.") || id.starts_with("4.") || id.starts_with("11.");
-        motions.push_back((upper_face ? 1 : maker.lower_face) * arkit_motion(shape, id));
-    }
-    return motions;
-}
-
-bool is_above_the_mouth(std::string_view id) {
-    for (const char* lip : {"2.2", "2.6", "2.7", "8.1", "8.5", "8.6", "8.9", "8.10"})
-        if (id == lip) return true;
-    return id.starts_with("9.");
-}
-
-Motions jaw_open_motions(const Maker& maker) {
-    Motions motions = table_motions(maker, "jawOpen");
-    for (std::size_t i = 0; i < motions.size(); ++i)
-        if (is_above_the_mouth(maker.with_contact.points[i])) motions[i] = upper_lip_of_jaw_open * motions[i];
-    return motions;
 }
 
 // What a motion of the table's points is on this face: one displacement per point of the rig.
@@ -172,10 +116,12 @@ std::optional<Motions> from_other_side(const Maker& maker, std::string_view shap
 }
 
 Motions plain_motions(const Maker& maker, std::string_view shape) {
-    if (shape == "jawOpen") return onto_face(maker, maker.linear, jaw_open_motions(maker));
-    if (shape != "mouthClose") return onto_face(maker, maker.linear, table_motions(maker, shape));
-    Motions together = table_motions(maker, "jawOpen");
-    const Motions close = table_motions(maker, "mouthClose");
+    if (shape == "jawOpen")
+        return onto_face(maker, maker.linear, jaw_open_motions(maker.with_contact.points, maker.lower_face));
+    if (shape != "mouthClose")
+        return onto_face(maker, maker.linear, table_motions(shape, maker.with_contact.points, maker.lower_face));
+    Motions together = table_motions("jawOpen", maker.with_contact.points, maker.lower_face);
+    const Motions close = table_motions("mouthClose", maker.with_contact.points, maker.lower_face);
     for (std::size_t i = 0; i < together.size(); ++i) together[i] += close[i];
     Motions result = onto_face(maker, maker.with_contact, together);
     const auto artist = maker.examples.find("jawOpen");

@@ -14,7 +14,7 @@ namespace mien {
 
 namespace {
 
-constexpr double beyond_lips = 0.32, down = 0.14;  // of the tip, in eye distances
+constexpr double beyond_lips = 0.42, down = 0.2;  // of the tip, in eye distances
 
 std::string lower_case(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

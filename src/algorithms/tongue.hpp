@@ -13,7 +13,7 @@ namespace mien {
 /// The places of the tongue: of the parts that are called so, or of the island that 6.1 (its tip) lies on.
 std::vector<std::uint32_t> tongue_places(const Face& face, const Weld& weld);
 
-/// Moves the tongue out between the lips: its tip a third of an eye distance beyond them and a little down, its root
+/// Moves the tongue out between the lips: its tip 0.42 of an eye distance beyond them and a little down, its root
 /// not. `turn`: how the face lies, `lips`: between them at rest.
 void put_out_tongue(const Face& face, const Weld& weld, const std::vector<std::uint32_t>& places,
                     const Quaternion& turn, const Vec3& lips, ShapeField& field);
