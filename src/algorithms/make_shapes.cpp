@@ -288,12 +288,12 @@ ShapeField sum_of(const Maker& maker, const NamedShape& shape, const Fields& fie
     ShapeField field(maker.weld.vertex.size());
     const double gain = gain_of(maker.options, shape.name);
     for (const ShapePart& part : shape.parts) {
+        // Both sides are added up first, in one order or the other the same: mirrors stay mirrors.
         const ShapeSides sides = sides_of(part.shape);
-        for (const std::string_view side : {sides.first, sides.second}) {
-            if (side.empty()) continue;
-            const ShapeField& add = fields.at(side);
-            for (std::size_t p = 0; p < field.size(); ++p) field[p] += (gain * part.weight) * add[p];
-        }
+        const ShapeField& one = fields.at(sides.first);
+        const ShapeField* const other = sides.second.empty() ? nullptr : &fields.at(sides.second);
+        for (std::size_t p = 0; p < field.size(); ++p)
+            field[p] += (gain * part.weight) * (other == nullptr ? one[p] : one[p] + (*other)[p]);
     }
     return field;
 }
