@@ -89,10 +89,15 @@ void report_shapes(const FaceShapes& made, const ShapesCheck& check, Report& rep
     for (const std::string& note : made.notes) warn(report, note);
 }
 
-// A file's mesh gets the shapes that name one of its vertices: those that move nothing name one on the face.
+// A file's mesh gets the shapes that name one of its vertices: all of them name one of the face, so that programs find
+// every name there.
 std::vector<MorphTarget> all_named(std::vector<MorphTarget> shapes, std::uint32_t vertex) {
-    for (MorphTarget& shape : shapes)
-        if (shape.vertices.empty()) shape = {shape.name, {vertex}, {Vec3f{}}};
+    for (MorphTarget& shape : shapes) {
+        const auto at = std::lower_bound(shape.vertices.begin(), shape.vertices.end(), vertex);
+        if (at != shape.vertices.end() && *at == vertex) continue;
+        shape.deltas.insert(shape.deltas.begin() + (at - shape.vertices.begin()), Vec3f{});
+        shape.vertices.insert(at, vertex);
+    }
     return shapes;
 }
 

@@ -26,7 +26,8 @@ if(TARGET mien_cli)
   script_test(cli.written_files_are_valid ${CMAKE_CURRENT_SOURCE_DIR}/cli/written_files_are_valid.py)
   script_test(cli.pictures ${CMAKE_CURRENT_SOURCE_DIR}/cli/render_test.py)
   script_test(cli.evaluate ${CMAKE_CURRENT_SOURCE_DIR}/cli/evaluate_test.py)
-  set_tests_properties(cli.evaluate PROPERTIES ENVIRONMENT ${program})
+  script_test(cli.shapes ${CMAKE_CURRENT_SOURCE_DIR}/cli/shapes_test.py)
+  set_tests_properties(cli.evaluate cli.shapes PROPERTIES ENVIRONMENT ${program})
   set_tests_properties(cli.promises cli.pictures cli.written_files_are_valid PROPERTIES ENVIRONMENT ${program})
 
   # The README's fragment: compiled and linked as it stands, and run beside the samples it names.
