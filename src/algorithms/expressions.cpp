@@ -15,8 +15,8 @@ namespace mien {
 
 namespace {
 
-constexpr ShapePart PP[] = {{"mouthRollLower", 0.35}, {"mouthRollUpper", 0.4}, {"mouthPress", 0.35}};
-constexpr ShapePart FF[] = {{"mouthRollLower", 0.6}, {"mouthUpperUp", 0.45}, {"mouthShrugLower", 0.2}};
+constexpr ShapePart PP[] = {{"mouthRollLower", 0.5}, {"mouthRollUpper", 0.55}, {"mouthPress", 0.25}};
+constexpr ShapePart FF[] = {{"mouthRollLower", 0.9}, {"mouthUpperUp", 0.45}, {"mouthShrugLower", 0.25}};
 constexpr ShapePart TH[] = {{"jawOpen", 0.14}, {"mouthLowerDown", 0.2}, {"mouthUpperUp", 0.12}, {"tongueOut", 0.45}};
 constexpr ShapePart DD[] = {{"jawOpen", 0.1}, {"mouthLowerDown", 0.35}, {"mouthUpperUp", 0.15}, {"mouthStretch", 0.15}};
 constexpr ShapePart kk[] = {{"jawOpen", 0.18}, {"mouthLowerDown", 0.2}, {"mouthUpperUp", 0.2}};
@@ -35,12 +35,12 @@ constexpr ShapePart U[] = {{"mouthPucker", 0.75}, {"mouthFunnel", 0.15}, {"jawOp
 
 constexpr ShapePart happy[] = {{"mouthSmile", 0.9}, {"cheekSquint", 0.6}, {"eyeSquint", 0.4}};
 constexpr ShapePart angry[] = {
-    {"browDown", 1.3}, {"noseSneer", 0.4}, {"eyeSquint", 0.5}, {"mouthFrown", 0.6}, {"mouthShrugLower", 0.15}};
+    {"browDown", 1.3}, {"noseSneer", 0.55}, {"eyeSquint", 0.5}, {"mouthFrown", 0.5}, {"mouthShrugLower", 0.2}};
 constexpr ShapePart sad[] = {
-    {"browInnerUp", 1}, {"mouthFrown", 0.9}, {"mouthShrugLower", 0.3}, {"eyeLookDown", 0.2}, {"eyeBlink", 0.12}};
+    {"browInnerUp", 0.8}, {"mouthFrown", 0.8}, {"mouthShrugLower", 0.4}, {"eyeLookDown", 0.2}, {"eyeBlink", 0.12}};
 constexpr ShapePart relaxed[] = {{"mouthSmile", 0.4}, {"cheekSquint", 0.2}, {"eyeBlink", 0.3}, {"browInnerUp", 0.15}};
 constexpr ShapePart surprised[] = {
-    {"eyeWide", 1}, {"browInnerUp", 0.9}, {"browOuterUp", 0.9}, {"jawOpen", 0.35}, {"mouthFunnel", 0.1}};
+    {"eyeWide", 1}, {"browInnerUp", 0.7}, {"browOuterUp", 0.9}, {"jawOpen", 0.35}, {"mouthFunnel", 0.1}};
 constexpr ShapePart blink[] = {{"eyeBlink", 1}};
 constexpr ShapePart blink_left[] = {{"eyeBlinkLeft", 1}};
 constexpr ShapePart blink_right[] = {{"eyeBlinkRight", 1}};

