@@ -23,6 +23,8 @@ namespace {
 void print(const Call& call) {
     if (call.flags.json)
         std::cout << as_json(call.report);
+    else if (!call.flags.quiet && !call.text.empty())
+        std::cout << call.text;
     else if (!call.flags.quiet)
         std::cout << as_lines(call.report, call.flags.verbose);
 }
@@ -62,6 +64,8 @@ int run(int argc, char** argv) {
     add_decode(app, call);
     add_fap(app, call);
     add_morph(app, call);
+    add_evaluate(app, call);
+    add_shapes(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -72,6 +76,7 @@ int run(int argc, char** argv) {
     call.work();
     write_report(call);
     print(call);
+    if (!call.gate.empty()) throw GateError(call.gate);
     return 0;
 }
 

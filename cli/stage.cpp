@@ -88,20 +88,24 @@ Size size_of(const std::string& text, Size wanted) {
     return size;
 }
 
-void add_look_flags(CLI::App& verb, LookFlags& flags) {
+void add_picture_flags(CLI::App& verb, LookFlags& flags) {
     verb.add_option("--size", flags.size, "of a picture in pixels, such as 640x480");
     verb.add_option("--view", flags.view, "where the camera stands")
         ->transform(CLI::CheckedTransformer(views).description("front, side or three-quarter"))
         ->default_str("front");
-    verb.add_option("--close-up", flags.close_up, "look at eyes, mouth, all points or one feature point from near");
     verb.add_option("--quality", flags.quality, "full: soft shadows and light under the skin; draft: fast")
         ->transform(CLI::CheckedTransformer(qualities).description("draft or full"))
         ->default_str("full");
     verb.add_option("--passes", flags.passes, "of full quality: more is smoother and takes longer")
         ->check(CLI::Range(8, 1024));
     verb.add_flag("--wire", flags.wire, "draw the edges of the triangles too");
-    verb.add_flag("--points", flags.points, "mark the feature points with their ids");
     verb.add_flag("--software", flags.software, "draw on the processor even where there is a graphics card");
+}
+
+void add_look_flags(CLI::App& verb, LookFlags& flags) {
+    add_picture_flags(verb, flags);
+    verb.add_option("--close-up", flags.close_up, "look at eyes, mouth, all points or one feature point from near");
+    verb.add_flag("--points", flags.points, "mark the feature points with their ids");
 }
 
 Stage::Stage(const LookFlags& look, const PaintFlags& paint, Size size)

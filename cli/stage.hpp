@@ -39,6 +39,8 @@ struct LookFlags {
     double time = 0;  ///< at which a close-up looks for its feature points
 };
 void add_look_flags(CLI::App& verb, LookFlags& flags);
+/// Those of them that every picture has: not which part of the head it shows, nor its points.
+void add_picture_flags(CLI::App& verb, LookFlags& flags);
 
 /// What the colours on a head mean instead of its materials.
 struct PaintFlags {

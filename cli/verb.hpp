@@ -29,6 +29,8 @@ struct Call {
     Common flags;
     std::function<void()> work;
     Report report = Report::object();
+    std::string text;  ///< what people read instead of the report's lines; empty: those
+    std::string gate;  ///< why a quality gate was not met, for verbs that tell all the same; empty: it was
 };
 
 /// A quality gate that the user asked for was not met (exit status 4).
@@ -55,5 +57,7 @@ void add_encode(CLI::App& app, Call& call);
 void add_decode(CLI::App& app, Call& call);
 void add_fap(CLI::App& app, Call& call);
 void add_morph(CLI::App& app, Call& call);
+void add_evaluate(CLI::App& app, Call& call);
+void add_shapes(CLI::App& app, Call& call);
 
 }  // namespace mien::cli

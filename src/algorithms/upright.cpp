@@ -9,8 +9,6 @@
 #include "algorithms/face_frame.hpp"
 #include "algorithms/rotation.hpp"
 
-#include "mien/face.hpp"
-
 namespace mien {
 
 namespace {
@@ -27,21 +25,36 @@ Quaternion without_small_nod(const Quaternion& turn) {
     return nearest_rotation({left, cross(level, left), level});
 }
 
+// The turn of the points that `self`, a map of a face to itself, has in its source.
+std::optional<Quaternion> turn_of(Retarget& self) {
+    self.target_neutral = self.source_neutral;
+    if (self.points.size() < 3) return std::nullopt;
+    const FaceFrames frames = face_frames(self, 1);
+    return frames.known ? std::optional(frames.source.turn) : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<Quaternion> face_turn(std::span<const FeaturePoint> points) {
+    Retarget self;
+    for (const FeaturePoint& point : points) {
+        self.points.push_back(point.id);
+        self.source_neutral.push_back(point.position);
+    }
+    return turn_of(self);
+}
 
 std::optional<Quaternion> face_turn(const Take& take, const NeutralOptions& options) {
     const std::vector<Vec3> rest = neutral(take, options);
-    Retarget self;  // of the face to itself
+    Retarget self;
     self.planar = take.planar;
     for (std::size_t c = 0; c < rest.size(); ++c) {
         if (!is_finite(rest[c]) || mirror_point(take.points[c]).empty()) continue;
         self.points.push_back(take.points[c]);
         self.source_neutral.push_back(rest[c]);
     }
-    self.target_neutral = self.source_neutral;
-    if (self.points.size() < 3) return std::nullopt;
-    const FaceFrames frames = face_frames(self, 1);
-    return frames.known ? std::optional(without_small_nod(frames.source.turn)) : std::nullopt;
+    const std::optional<Quaternion> turn = turn_of(self);
+    return turn ? std::optional(without_small_nod(*turn)) : std::nullopt;
 }
 
 Take upright(const Take& take, const Quaternion& turn) {

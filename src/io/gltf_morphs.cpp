@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the mien authors
 
 // Morph targets of glTF 2.0 (specification, 3.7.2.2) with weights over time (3.11). A mesh gets the targets that move
-// one of its vertices, in the order of the track, on every one of its primitives, as the specification wants; a mesh
-// that nothing moves stays as it is. A target is a sparse accessor over zeros (3.6.2.3) where that takes fewer bytes.
+// one of its vertices, or that name one with a delta of zero, in the order of the track, on every one of its
+// primitives, as the specification wants; a mesh that nothing moves stays as it is. A target is a sparse accessor over
+// zeros (3.6.2.3) where that takes fewer bytes.
 
 #include "io/gltf_morphs.hpp"
 
@@ -122,19 +123,28 @@ void append_target(GltfDocument& document, Primitives primitives, const std::vec
     }
 }
 
+bool names_one(const std::vector<bool>& named, const WrittenPrimitive& written) {
+    return std::any_of(written.vertices.begin(), written.vertices.end(), [&](std::uint32_t v) { return named[v]; });
+}
+
 Targets append_targets(GltfDocument& document, Primitives primitives, std::size_t vertices,
                        std::span<const MorphTarget> all) {
     Targets targets;
     std::vector<Vec3f> deltas(vertices);
+    std::vector<bool> named(vertices);
     for (std::size_t t = 0; t < all.size(); ++t) {
         const MorphTarget& target = all[t];
         for (std::size_t i = 0; i < target.vertices.size(); ++i) deltas[target.vertices[i]] = target.deltas[i];
+        for (const std::uint32_t v : target.vertices) named[v] = true;
         if (std::any_of(primitives.begin(), primitives.end(),
-                        [&](const WrittenPrimitive& written) { return !moved_of(deltas, written).at.empty(); })) {
+                        [&](const WrittenPrimitive& written) { return names_one(named, written); })) {
             append_target(document, primitives, deltas);
             targets.push_back(t);
         }
-        for (const std::uint32_t v : target.vertices) deltas[v] = {};
+        for (const std::uint32_t v : target.vertices) {
+            deltas[v] = {};
+            named[v] = false;
+        }
     }
     return targets;
 }

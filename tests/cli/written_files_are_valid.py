@@ -40,6 +40,17 @@ def performances():
         {"joints": JOINTS, "morphs": MORPHS}
 
 
+def shaped():
+    """(name, head, points) of heads that are to get shapes."""
+    yield "sample-shapes", HEAD, POINTS
+    if SHARED.is_dir():
+        caucasian, suzanne, ict = SHARED / "mh-caucasian", SHARED / "suzanne", SHARED / "ict"
+        for sex in ("female", "male"):
+            yield f"caucasian-{sex}-shapes", caucasian / f"mh-caucasian-{sex}.glb", caucasian / "points-glb.json"
+        yield "suzanne-shapes", suzanne / "suzi.glb", suzanne / "points.json"
+        yield "ict-shapes", ict / "ict_neutral.obj", ict / "feature_points.json"
+
+
 def write_all(folder):
     """Writes everything; gives back the files and what went wrong."""
     written, wrong, rigged = [], [], set()
@@ -56,6 +67,13 @@ def write_all(folder):
                 wrong.append(f"mien {' '.join(map(str, call))}: {result.stderr}")
             else:
                 written.append(output)
+    for name, head, points in shaped():
+        output = folder / f"{name}.glb"
+        result = run("shapes", head, "--points", points, "-o", output)
+        if result.returncode:
+            wrong.append(f"mien shapes {head}: {result.stderr}")
+        else:
+            written.append(output)
     return written, wrong
 
 

@@ -273,6 +273,15 @@ TEST(PlayedMorphs, have_their_names_and_a_small_file_where_few_vertices_move) {
     EXPECT_LT(format_glb(mesh, track).size() + vertex_count(mesh) * 12, both + 1000);
 }
 
+TEST(PlayedMorphs, a_target_that_names_a_vertex_and_leaves_it_still_is_there_by_name) {
+    const Mesh mesh = shapes::mask().mesh;
+    MorphTrack track;
+    track.targets = {{"still", {3}, {Vec3f{}}}, {"nothing", {}, {}}, {"up", {4}, {Vec3f{0, 1, 0}}}};
+    const Player player(format_glb(mesh, track));
+    EXPECT_EQ(player.root()["meshes"][0]["extras"]["targetNames"], json::array({"still", "up"}));
+    EXPECT_EQ(player.root().count("animations"), 0U);
+}
+
 // The dome and the ball as two meshes: a target moves only the ball.
 TEST(PlayedMorphs, leave_other_meshes_still) {
     Mesh mesh = shapes::mask().mesh;

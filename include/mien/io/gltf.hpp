@@ -36,7 +36,8 @@ struct GltfOptions {
 std::vector<std::byte> format_glb(const Mesh& mesh, const Rig& rig, const Skin& skin, const Take& take,
                                   const GltfOptions& options = {});
 
-/// A GLB of the head performing by morph targets with one weights track, sparse where that is smaller.
+/// A GLB of the head performing by morph targets with one weights track, sparse where that is smaller; without times a
+/// head with shapes at rest. A mesh of the file gets the targets that list a vertex of it, be it with a delta of zero.
 std::vector<std::byte> format_glb(const Mesh& mesh, const MorphTrack& track);
 
 /// A rig file: the neutral head with its skin, playable by any engine, and in the extension MIEN_rig the exact signed
