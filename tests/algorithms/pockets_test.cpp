@@ -125,9 +125,9 @@ TEST(Pockets, AreFilledBetweenTheMotionsOfTheirRim) {
 // What the rest of a face does must not depend on what is hidden behind its lips.
 TEST(Pockets, TheFaceMovesAsIfTheyWereNotThere) {
     const Face whole = purse(true);
-    const Weld joined = weld(whole.mesh);
-    Face outside = whole;
-    outside.mesh = without_places(whole.mesh, joined, pockets(whole));
+    Face outside{{}, whole.points};
+    outside.mesh.positions = whole.mesh.positions;
+    for (std::size_t f = 0; f < lip_ring * sectors; ++f) add_face(outside.mesh, face(whole.mesh, f));
     const BiharmonicOptions all{.influences = 0};
     const Rig with = rig_biharmonic(whole, all), without = rig_biharmonic(outside, all);
     const std::uint32_t seen = with.row_starts[(lip_ring + 1) * sectors];
