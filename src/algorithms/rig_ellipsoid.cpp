@@ -126,6 +126,7 @@ void keep_largest(std::vector<Influence>& row) {
     std::erase_if(row, [](const Influence& i) { return i.weight < least_weight; });
     if (row.size() <= most_weights) return;
     std::vector<double> sizes;
+    sizes.reserve(row.size());
     for (const Influence& i : row) sizes.push_back(i.weight);
     std::sort(sizes.rbegin(), sizes.rend());
     const double left_out = sizes[most_weights] + tie;
