@@ -81,6 +81,7 @@ std::vector<double> ways_from(const Face& face, const Weld& weld, const EdgeGrap
     if (reading == Reading::remedied) return surface_distances(graph, from);
     const Vec3 at = position(face.mesh, weld, from);
     std::vector<double> ways;
+    ways.reserve(weld.vertex.size());
     for (std::uint32_t p = 0; p < weld.vertex.size(); ++p) ways.push_back(distance(position(face.mesh, weld, p), at));
     return ways;
 }
@@ -109,6 +110,7 @@ Rows influences(const Face& face, const Weld& weld, const std::vector<bool>& sol
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
         const std::vector<double> ways = ways_from(face, weld, graph, movers.places[i], reading);
         std::vector<double> to_points;
+        to_points.reserve(points.size());
         for (const std::uint32_t place : movers.places) to_points.push_back(ways[place]);
         by_mover[i] = influences_of(face, weld, solved, ways, to_points, points, i);
     });
@@ -124,6 +126,7 @@ void keep_largest(std::vector<Influence>& row) {
     std::erase_if(row, [](const Influence& i) { return i.weight < least_weight; });
     if (row.size() <= most_weights) return;
     std::vector<double> sizes;
+    sizes.reserve(row.size());
     for (const Influence& i : row) sizes.push_back(i.weight);
     std::sort(sizes.rbegin(), sizes.rend());
     const double left_out = sizes[most_weights] + tie;

@@ -53,6 +53,7 @@ std::vector<Piece> pieces(const Mesh& mesh, const Weld& weld, const Movers& move
     for (std::uint32_t p = 0; p < island.size(); ++p)
         if (const auto found = by_island.find(island[p]); found != by_island.end()) found->second.places.push_back(p);
     std::vector<Piece> list;
+    list.reserve(by_island.size());
     for (auto& [number, piece] : by_island) list.push_back(std::move(piece));
     return list;
 }
@@ -68,8 +69,8 @@ std::vector<std::uint32_t> still_places(const Face& face, const Weld& weld, cons
             away[i] = std::min(away[i], distance(position(face.mesh, weld, piece.places[i]), at));
     };
     for (const std::uint32_t m : piece.movers) come_near(movers.places[m]);
-    std::vector<bool> is_far;
-    for (const double d : away) is_far.push_back(d > radius);
+    std::vector<bool> is_far(away.size());
+    for (std::size_t i = 0; i < away.size(); ++i) is_far[i] = away[i] > radius;
     std::vector<std::uint32_t> still;
     while (still.size() < still_count) {
         double farthest = 0;
@@ -109,11 +110,6 @@ double mean_nearest(const Eigen::MatrixXd& between, Eigen::Index movers, double 
     return d.rowwise().minCoeff().mean();
 }
 
-struct System {
-    Eigen::MatrixXd inverse;  // centres, and the constant's row where there is one
-    double scale = 1;
-};
-
 // A distance along a surface is no distance in a flat space, so exp(-d) may have negative eigenvalues.
 Eigen::MatrixXd clipped_inverse(const Eigen::MatrixXd& k) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(k);
@@ -128,7 +124,7 @@ Eigen::MatrixXd bordered_inverse(const Eigen::MatrixXd& k) {
     bordered.topLeftCorner(n, n) = k;
     bordered.block(0, n, n, 1).setOnes();
     bordered.block(n, 0, 1, n).setOnes();
-    const Eigen::MatrixXd inverse = bordered.fullPivLu().inverse();
+    Eigen::MatrixXd inverse = bordered.fullPivLu().inverse();
     const double off = (bordered * inverse - Eigen::MatrixXd::Identity(n + 1, n + 1)).cwiseAbs().maxCoeff();
     if (!(off <= largest_residual))
         throw Error(
