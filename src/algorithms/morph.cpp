@@ -37,6 +37,7 @@ std::vector<MeasuredPoint> merged(std::span<const std::vector<MeasuredPoint>> pi
             }
         }
     std::vector<MeasuredPoint> result;
+    result.reserve(sums.size());
     for (const Sum& s : sums)  // 0 / 0 where no picture shows it
         result.push_back({s.id, {s.sum[0] / s.count[0], s.sum[1] / s.count[1], s.sum[2] / s.count[2]}});
     return result;
@@ -92,6 +93,7 @@ Similarity alignment(const std::vector<Pair>& pairs) {
 
 double size_of(const std::vector<Vec3f>& positions) {
     std::vector<Vec3> places;
+    places.reserve(positions.size());
     for (const Vec3f& p : positions) places.push_back(to_double(p));
     return diagonal(bounding_box(places));
 }
