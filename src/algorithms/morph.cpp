@@ -157,13 +157,11 @@ struct Reshape {
 
 std::vector<Vec3f> morph(const Rig& rig, std::span<const MeasuredPoint> measured) {
     const std::vector<Pair> pairs = paired(rig, measured);
-    const double size = size_of(rig.rest);
-    Reshape reshape{rig, alignment_that_moves(pairs, size), std::vector<Vec3>(rig.points.size())};
+    Reshape reshape{rig, alignment_that_moves(pairs, size_of(rig.rest)), std::vector<Vec3>(rig.points.size())};
     for (const Pair& pair : pairs) {
         const Vec3 start = reshape.aligned(pair.from);
         const Vec3 goal{known(pair.to.x, start.x), known(pair.to.y, start.y), known(pair.to.z, start.z)};
-        const bool moves = reshape.align || distance(goal, start) > same * size;
-        reshape.left[pair.point] = moves ? goal - start : Vec3{};
+        reshape.left[pair.point] = goal - start;
     }
     std::vector<Vec3f> positions;
     for (std::uint32_t v = 0; v < vertex_count(rig); ++v) positions.push_back(to_float(reshape.moved(v)));
