@@ -28,9 +28,9 @@ struct Filter {
 
 Streams load_all(const std::vector<std::filesystem::path>& files, Report& report) {
     Streams streams;
-    for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const std::filesystem::path& file : files) {
         Report about;
-        streams.push_back(load_faps(files[i], about));
+        streams.push_back(load_faps(file, about));
         if (about.contains("warnings"))
             for (const Report& sentence : about["warnings"]) warn(report, sentence.get<std::string>());
         report["faps"].push_back(about["faps"]);

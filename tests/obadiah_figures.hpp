@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -56,7 +57,7 @@ inline std::vector<FeaturePoint> read_estimated_points(const Mesh& mesh) {
 inline std::optional<std::vector<Vec3>> drawn_field(const Mesh& mesh, int fap) {
     std::vector<Vec3> field(mesh.positions.size());
     bool found = false;
-    const std::string name = "FAP_" + std::to_string(fap);
+    const std::string name = fmt::format("FAP_{}", fap);
     for (const MorphTarget& target : mesh.morph_targets) {
         if (target.name != name && target.name != name + "_0" && target.name != name + "_1") continue;
         found = true;

@@ -81,9 +81,10 @@ FapStream retimed(const FapStream& stream, const RetimeOptions& options) {
     const double first = std::ceil(time_of(stream, stream.frames.front()) * numbers - slack);
     const double last = std::floor(time_of(stream, stream.frames.back()) * numbers + slack);
     if (!(last < most_frames)) throw Error(fmt::format("retime: expected at most 4e6 frames, found {}", last));
-    for (double number = first; number <= std::max(first, last); ++number) {
+    const auto begin = static_cast<std::uint32_t>(first), end = static_cast<std::uint32_t>(std::max(first, last));
+    for (std::uint32_t number = begin; number <= end; ++number) {
         result.frames.push_back(frame_at(stream, number / numbers));
-        result.frames.back().number = static_cast<std::uint32_t>(number);
+        result.frames.back().number = number;
     }
     return result;
 }

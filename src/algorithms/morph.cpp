@@ -37,6 +37,7 @@ std::vector<MeasuredPoint> merged(std::span<const std::vector<MeasuredPoint>> pi
             }
         }
     std::vector<MeasuredPoint> result;
+    result.reserve(sums.size());
     for (const Sum& s : sums)  // 0 / 0 where no picture shows it
         result.push_back({s.id, {s.sum[0] / s.count[0], s.sum[1] / s.count[1], s.sum[2] / s.count[2]}});
     return result;
@@ -92,6 +93,7 @@ Similarity alignment(const std::vector<Pair>& pairs) {
 
 double size_of(const std::vector<Vec3f>& positions) {
     std::vector<Vec3> places;
+    places.reserve(positions.size());
     for (const Vec3f& p : positions) places.push_back(to_double(p));
     return diagonal(bounding_box(places));
 }
@@ -155,13 +157,11 @@ struct Reshape {
 
 std::vector<Vec3f> morph(const Rig& rig, std::span<const MeasuredPoint> measured) {
     const std::vector<Pair> pairs = paired(rig, measured);
-    const double size = size_of(rig.rest);
-    Reshape reshape{rig, alignment_that_moves(pairs, size), std::vector<Vec3>(rig.points.size())};
+    Reshape reshape{rig, alignment_that_moves(pairs, size_of(rig.rest)), std::vector<Vec3>(rig.points.size())};
     for (const Pair& pair : pairs) {
         const Vec3 start = reshape.aligned(pair.from);
         const Vec3 goal{known(pair.to.x, start.x), known(pair.to.y, start.y), known(pair.to.z, start.z)};
-        const bool moves = reshape.align || distance(goal, start) > same * size;
-        reshape.left[pair.point] = moves ? goal - start : Vec3{};
+        reshape.left[pair.point] = goal - start;
     }
     std::vector<Vec3f> positions;
     for (std::uint32_t v = 0; v < vertex_count(rig); ++v) positions.push_back(to_float(reshape.moved(v)));

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <fmt/format.h>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -106,7 +107,7 @@ inline std::string parameters(const Contents& contents) {
             label.resize(contents.label_width, ' ');
             labels += label;
         }
-        const std::string name = first == 0 ? "LABELS" : "LABELS" + std::to_string(first / 255 + 1);
+        const std::string name = first == 0 ? "LABELS" : fmt::format("LABELS{}", first / 255 + 1);
         add_value(out, 1, name, -1, {static_cast<int>(contents.label_width), static_cast<int>(end - first)}, labels);
     }
     add_value(out, 1, "UNITS", -1, {4}, "mm  ");

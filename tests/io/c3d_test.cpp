@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <string>
 #include <tuple>
@@ -93,7 +94,7 @@ TEST(C3d, MoreFramesThanTheHeaderCanCountAreReadWhole) {
 TEST(C3d, LabelsBeyondTheTwoHundredAndFiftyFifthAreFound) {
     Contents contents;
     contents.labels.clear();
-    for (int i = 0; i < 300; ++i) contents.labels.push_back("m" + std::to_string(i));
+    for (int i = 0; i < 300; ++i) contents.labels.push_back(fmt::format("m{}", i));
     contents.frames.assign(2, std::vector<c3d::Sample>(300, {1, 2, 3, 0}));
     EXPECT_EQ(parse(c3d::file(contents)).points, contents.labels);
 }
