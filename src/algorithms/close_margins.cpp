@@ -273,14 +273,15 @@ struct Turned {
 std::vector<Turned> eyeballs(const Face& face, const Weld& weld, const Rig& rig, const ShapeField& field) {
     std::vector<Turned> balls;
     for (const Eyeball& eyeball : rig.eyeballs) {
-        Ball rest{eyeball.centre, {}, 0}, moved = rest;
+        Turned& ball = balls.emplace_back();
+        ball.rest.centre = ball.moved.centre = eyeball.centre;
         for (const std::uint32_t v : eyeball.vertices) {
-            rest.surface.push_back(to_double(face.mesh.positions[v]) - eyeball.centre);
-            moved.surface.push_back(rest.surface.back() + field[weld.place[v]]);
-            rest.largest = std::max(rest.largest, length(rest.surface.back()));
+            const Vec3 arm = to_double(face.mesh.positions[v]) - eyeball.centre;
+            ball.rest.surface.push_back(arm);
+            ball.moved.surface.push_back(arm + field[weld.place[v]]);
+            ball.rest.largest = std::max(ball.rest.largest, length(arm));
         }
-        moved.largest = rest.largest;
-        balls.push_back({std::move(rest), std::move(moved)});
+        ball.moved.largest = ball.rest.largest;
     }
     return balls;
 }
