@@ -58,6 +58,7 @@ void check_names(const Evaluate& flags, const Mesh& mesh) {
 void keep_only(const std::vector<std::string>& names, Mesh& mesh) {
     if (names.empty()) return;
     std::vector<MorphTarget> kept;
+    kept.reserve(names.size());
     for (const std::string& name : names) kept.push_back(*find_shape(mesh, name));
     mesh.morph_targets = std::move(kept);
 }

@@ -167,7 +167,7 @@ void add_own_flags(CLI::App& verb, Shapes& flags) {
         ->check(CLI::IsMember({"arkit", "visemes", "vrm"}));
     verb.add_option("--gain", flags.gains, "SHAPE=NUMBER: make a shape stronger or weaker; may be given several times");
     verb.add_option("--retarget-method", flags.shapes.method,
-                    "how motion goes from the table's face to this one; fapu for creatures")
+                    "how motion goes from the table's face to this one: one map per point, or in the units of MPEG-4")
         ->transform(
             CLI::CheckedTransformer(std::map<std::string, RetargetMethod>{
                                         {"local-affine", RetargetMethod::local_affine}, {"fapu", RetargetMethod::fapu}})

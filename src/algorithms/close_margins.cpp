@@ -125,23 +125,32 @@ void close_margin(const MarginCloser& closer, const Face& face, const Weld& weld
     for (std::uint32_t p = 0; p < field.size(); ++p) field[p] += add[p];
 }
 
+namespace {
+
+// What is missing of an even arch along one edge, at the sheet's handles. `middle`: the place of its feature point.
+void add_arch(const MarginCloser& closer, const Face& face, const Weld& weld, const std::vector<std::uint32_t>& edge,
+              std::uint32_t middle, const ShapeField& field, std::vector<Vec3f>& moves) {
+    const std::vector<double> along = along_chord(edge, face, weld);
+    const auto at = static_cast<std::size_t>(std::find(edge.begin(), edge.end(), middle) - edge.begin());
+    if (at >= along.size() || !(along[at] > 0 && along[at] < 1)) return;
+    const auto straight = [&](double t) { return (1 - t) * field[edge.front()] + t * field[edge.back()]; };
+    const Vec3 bow = field[middle] - straight(along[at]);
+    for (std::size_t i = 1; i + 1 < edge.size(); ++i) {
+        const double t = along[i] < along[at] ? along[i] / along[at] : (1 - along[i]) / (1 - along[at]);
+        const Vec3 wanted = straight(along[i]) + (t * (2 - t)) * bow;
+        const auto handle = std::find(closer.places.begin(), closer.places.end(), edge[i]) - closer.places.begin();
+        moves[static_cast<std::size_t>(handle)] = to_float(wanted - field[edge[i]]);
+    }
+}
+
+}  // namespace
+
 void arch_edges(const MarginCloser& closer, const Face& face, const Weld& weld, std::size_t margin, ShapeField& field) {
     const Margin& slit = closer.margins[margin];
+    const auto middle = [&](std::size_t edge) { return weld.place[face.points[slit.points[edge]].vertex]; };
     std::vector<Vec3f> moves(closer.places.size());
-    for (const auto& [edge, point] : {std::pair{&slit.upper, 0U}, {&slit.lower, 1U}}) {
-        const std::uint32_t middle = weld.place[face.points[slit.points[point]].vertex];
-        const std::vector<double> along = along_chord(*edge, face, weld);
-        const auto at = static_cast<std::size_t>(std::find(edge->begin(), edge->end(), middle) - edge->begin());
-        if (at >= along.size() || !(along[at] > 0 && along[at] < 1)) continue;
-        const auto straight = [&](double t) { return (1 - t) * field[edge->front()] + t * field[edge->back()]; };
-        const Vec3 bow = field[middle] - straight(along[at]);
-        for (std::size_t i = 1; i + 1 < edge->size(); ++i) {
-            const double t = along[i] < along[at] ? along[i] / along[at] : (1 - along[i]) / (1 - along[at]);
-            const Vec3 wanted = straight(along[i]) + (t * (2 - t)) * bow;
-            const auto handle = std::find(closer.places.begin(), closer.places.end(), (*edge)[i]);
-            moves[static_cast<std::size_t>(handle - closer.places.begin())] = to_float(wanted - field[(*edge)[i]]);
-        }
-    }
+    add_arch(closer, face, weld, slit.upper, middle(0), field, moves);
+    add_arch(closer, face, weld, slit.lower, middle(1), field, moves);
     const ShapeField add = drawn(closer, weld, moves);
     for (std::uint32_t p = 0; p < field.size(); ++p) field[p] += add[p];
 }
@@ -264,14 +273,15 @@ struct Turned {
 std::vector<Turned> eyeballs(const Face& face, const Weld& weld, const Rig& rig, const ShapeField& field) {
     std::vector<Turned> balls;
     for (const Eyeball& eyeball : rig.eyeballs) {
-        Ball rest{eyeball.centre, {}, 0}, moved = rest;
+        Turned& ball = balls.emplace_back();
+        ball.rest.centre = ball.moved.centre = eyeball.centre;
         for (const std::uint32_t v : eyeball.vertices) {
-            rest.surface.push_back(to_double(face.mesh.positions[v]) - eyeball.centre);
-            moved.surface.push_back(rest.surface.back() + field[weld.place[v]]);
-            rest.largest = std::max(rest.largest, length(rest.surface.back()));
+            const Vec3 arm = to_double(face.mesh.positions[v]) - eyeball.centre;
+            ball.rest.surface.push_back(arm);
+            ball.moved.surface.push_back(arm + field[weld.place[v]]);
+            ball.rest.largest = std::max(ball.rest.largest, length(arm));
         }
-        moved.largest = rest.largest;
-        balls.push_back({std::move(rest), std::move(moved)});
+        ball.moved.largest = ball.rest.largest;
     }
     return balls;
 }

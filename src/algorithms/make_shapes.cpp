@@ -33,7 +33,6 @@ namespace {
 
 // The upper edge's share of the way that is left at first; then what is left between their vertices is shared alike.
 constexpr double upper_lid_of_blink = 0.95, upper_lip_of_close = 0.3;
-constexpr double small_mouth = 0.8;   // of the table's width, by the eye distance
 constexpr double least_delta = 1e-4;  // in eye distances: shorter ones are left out
 constexpr double degrees = 3.14159265358979323846 / 180;
 

@@ -106,6 +106,7 @@ std::vector<double> along_chord(const std::vector<std::uint32_t>& edge, const Fa
     const Vec3 start = of(face, weld, edge.front());
     const Vec3 chord = of(face, weld, edge.back()) - start;
     std::vector<double> along;
+    along.reserve(edge.size());
     for (const std::uint32_t p : edge)
         along.push_back(std::clamp(dot(of(face, weld, p) - start, chord) / dot(chord, chord), 0.0, 1.0));
     return along;
@@ -136,6 +137,7 @@ std::vector<double> openings(const Margin& margin, const std::function<Vec3(std:
     const Vec3 start = at(margin.upper.front()), chord = at(margin.upper.back()) - start;
     const auto along = [&](const std::vector<std::uint32_t>& edge) {
         std::vector<double> shares;
+        shares.reserve(edge.size());
         for (const std::uint32_t p : edge) shares.push_back(dot(at(p) - start, chord) / dot(chord, chord));
         return shares;
     };

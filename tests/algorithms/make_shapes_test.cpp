@@ -300,13 +300,24 @@ TEST(MakeShapes, a_socket_that_is_closed_behind_the_eye_follows_the_lids_at_its_
     EXPECT_LT(check_shapes(face, all.shapes).blink_left->most, 0.05);
 }
 
-TEST(MakeShapes, lids_stay_outside_the_eyeballs) {
-    const Face face = with_eyes_and_tongue();
+TEST(MakeShapes, lids_slide_over_the_eyeballs_and_do_not_sink_into_them) {
+    constexpr float radius = 0.25F;
+    Face face = shapes::slit_mask();
+    const auto skin = face.mesh.positions.size();
+    const float z = face.mesh.positions[face.points[*find_point(face.points, "3.1")].vertex].z;
+    const Vec3f centre{0.5F, 0, z - 0.19F};
+    for (const float x : {centre.x, -centre.x})
+        shapes::append(face.mesh, shapes::ball({x, centre.y, centre.z}, radius, 24, 32));
     const FaceShapes all = make(face);
-    const Vec3f centre{0.5F, 0, face.mesh.positions[face.points[*find_point(face.points, "3.1")].vertex].z - 0.27F};
-    const std::vector<Vec3f> blink = dense(shape(all, "eyeBlinkLeft"), face.mesh);
-    for (std::size_t v = 0; v < shapes::slit_mask().mesh.positions.size(); ++v)
-        EXPECT_GT(distance(face.mesh.positions[v] + blink[v], centre), 0.245F) << v;
+    for (const char* name : {"eyeBlinkLeft", "eyeLookDownLeft", "eyeSquintLeft"}) {
+        const std::vector<Vec3f> moves = dense(shape(all, name), face.mesh);
+        for (std::size_t v = 0; v < skin; ++v) {
+            const float before = distance(face.mesh.positions[v], centre);
+            if (before < 0.88F * radius || before > radius * 1.5F) continue;
+            EXPECT_GT(distance(face.mesh.positions[v] + moves[v], centre), 0.985F * std::min(before, radius))
+                << name << " " << v;
+        }
+    }
 }
 
 template <class Call>

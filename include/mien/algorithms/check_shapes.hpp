@@ -26,8 +26,8 @@ struct ShapesCheck {
     /// is open at rest does not count.
     std::optional<Openness> closed_jaw;
     std::optional<double> upper_lip;  ///< how far jawOpen moves the middle of the upper lip, as a share of the lower's
-    double flipped = 0;  ///< share of the faces moved by single shapes whose normal turns by over 90 degrees;
-                         ///< mouthClose is looked at with jawOpen, for which it is made
+    double flipped = 0;        ///< share of the faces moved by single shapes whose normal turns by over 90 degrees;
+                               ///< mouthClose is looked at with jawOpen, for which it is made
     std::string most_flipped;  ///< the shape with the largest share, and that share
     double most_flipped_share = 0;
 };

@@ -22,8 +22,8 @@ struct ShapeGain {
 
 struct ShapesOptions {
     std::vector<ShapeSet> sets{ShapeSet::arkit, ShapeSet::visemes, ShapeSet::vrm};
-    /// Of motion from the table's face to this one; `fapu` for creatures, whose eyes and mouth are of other
-    /// proportions.
+    /// How motion goes from the table's face to this one. One map per point does for creatures too, since small mouths
+    /// move in proportion.
     RetargetMethod method = RetargetMethod::local_affine;
     /// An artist's shapes on the same head, by the names of the standards. They are kept as they are, and the missing
     /// ones follow their style. Shapes of other names are left out.
