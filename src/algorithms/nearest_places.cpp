@@ -88,6 +88,7 @@ std::vector<std::uint32_t> NearestPlaces::nearest(const Vec3& p, std::size_t cou
     }
     std::sort_heap(heap.begin(), heap.end());
     std::vector<std::uint32_t> result;
+    result.reserve(heap.size());
     for (const Found& found : heap) result.push_back(found.second);
     return result;
 }

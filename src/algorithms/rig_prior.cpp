@@ -139,10 +139,11 @@ Normal normal_equations(const Ground& ground, std::span<const Field> shapes, con
                   Eigen::MatrixXd::Zero(m, 3 * std::ssize(ground.face.points))};
     for (int axis = 0; axis < 3; ++axis) {
         const auto part = std::find_if(parts.begin(), parts.end(), [&](const Solved& each) {
-            for (std::uint16_t i = 0; i < ground.face.points.size(); ++i) {
+            for (std::size_t i = 0; i < ground.face.points.size(); ++i) {
                 const FeaturePoint& point = ground.face.points[i];
                 const bool moves = ground.solved[ground.joined.place[point.vertex]] && moves_along(point, axis);
-                if (moves != std::binary_search(each.points.begin(), each.points.end(), i)) return false;
+                if (moves != std::binary_search(each.points.begin(), each.points.end(), static_cast<std::uint16_t>(i)))
+                    return false;
             }
             return true;
         });

@@ -107,6 +107,7 @@ std::vector<Track> shape_tracks(const Rig& rig, const Take& take, const Keys& ke
                                 const std::vector<MorphedMesh>& meshes) {
     const std::vector<float> weights = prior_weights(rig, take);
     std::vector<Track> tracks;
+    tracks.reserve(meshes.size());
     for (const MorphedMesh& mesh : meshes)
         tracks.push_back({mesh.node, "weights", std::vector<float>(mesh.targets.size()),
                           weights_at_keys(mesh, weights, rig.prior->shapes.size(), keys)});

@@ -26,20 +26,23 @@ namespace {
 
 using nlohmann::json;
 
-void check(const Mesh& mesh, const MorphTrack& track) {
-    const std::size_t values = track.times.size() * track.targets.size();
-    if (track.weights.size() != values)
-        throw Error(fmt::format("morphs: expected {} weights of {} targets in {} rows, found {}", values,
-                                track.targets.size(), track.times.size(), track.weights.size()));
-    for (const MorphTarget& target : track.targets) {
+void check(std::span<const MorphTarget> targets, std::size_t vertices) {
+    for (const MorphTarget& target : targets) {
         if (target.deltas.size() != target.vertices.size())
             throw Error(fmt::format("morph \"{}\": expected {} deltas, found {}", target.name, target.vertices.size(),
                                     target.deltas.size()));
         for (const std::uint32_t v : target.vertices)
-            if (v >= vertex_count(mesh))
-                throw Error(fmt::format("morph \"{}\": expected vertices below {}, found {}", target.name,
-                                        vertex_count(mesh), v));
+            if (v >= vertices)
+                throw Error(
+                    fmt::format("morph \"{}\": expected vertices below {}, found {}", target.name, vertices, v));
     }
+}
+
+void check(const MorphTrack& track) {
+    const std::size_t values = track.times.size() * track.targets.size();
+    if (track.weights.size() != values)
+        throw Error(fmt::format("morphs: expected {} weights of {} targets in {} rows, found {}", values,
+                                track.targets.size(), track.times.size(), track.weights.size()));
 }
 
 // One target on one primitive: which of its vertices move, and how far.
@@ -184,6 +187,7 @@ void append_animation(GltfDocument& document, const std::vector<MorphedMesh>& al
 }  // namespace
 
 std::vector<MorphedMesh> append_morphs(BaseDocument& base, std::size_t vertices, std::span<const MorphTarget> targets) {
+    check(targets, vertices);
     json& root = base.document.json;
     std::vector<MorphedMesh> all;
     for (const std::size_t node : base.mesh_nodes) {
@@ -204,7 +208,7 @@ std::vector<float> weights_at_keys(const MorphedMesh& mesh, std::span<const floa
 }
 
 std::vector<std::byte> format_glb(const Mesh& mesh, const MorphTrack& track) {
-    check(mesh, track);
+    check(track);
     BaseDocument base = base_document(mesh);
     append_animation(base.document, append_morphs(base, vertex_count(mesh), track.targets), track);
     return format_glb(base.document);

@@ -19,7 +19,8 @@ struct MorphedMesh {
     std::vector<std::size_t> targets;
 };
 
-/// Appends morph targets with their names, at rest, to every mesh that they move. `vertices`: of the head.
+/// Appends morph targets with their names, at rest, to every mesh that they move. `vertices`: of the head. Throws Error
+/// if a target does not fit it.
 std::vector<MorphedMesh> append_morphs(BaseDocument& base, std::size_t vertices, std::span<const MorphTarget> targets);
 
 /// The weights of a mesh's targets, key after key. `weights`: of all `count` targets, one row per time.

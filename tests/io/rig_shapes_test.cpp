@@ -92,6 +92,14 @@ TEST(RigShapes, AHeadThatWasGltfIsNeutralAgainWithoutTargets) {
     EXPECT_EQ(parse_gltf(file, none).morph_targets.size(), 2U);
 }
 
+TEST(RigShapes, AShapeThatIsNotOfTheHeadIsNotWritten) {
+    Head head;
+    head.rig.prior->shapes[1].vertices.back() = 1'000'000;
+    EXPECT_THAT([&] { return head.file(); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("morph \"jaw\": expected")));
+    EXPECT_THROW(format_glb(head.face.mesh, head.rig, head.skin, {}), Error);
+}
+
 // Every vertex moved by the skin's joints and the file's targets is where the joints would bring it, plus the shapes.
 TEST(RigShapes, AnyPlayerAddsTheShapesThatDeformAdds) {
     const Head head;
