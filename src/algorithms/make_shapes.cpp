@@ -398,9 +398,11 @@ void note_what_is_missing(const Maker& maker, FaceShapes& made) {
             "the points do not name the edges of both pairs of lids (3.1 to 3.4 with the corners "
             "3.7, 3.8, 3.11, 3.12): a blink closes at the points only");
     if (!has(Margin::Kind::lips))
-        made.notes.emplace_back("no slit between the lips that the points 2.2 to 2.5 name: the mouth cannot open");
+        made.notes.emplace_back(
+            "the points do not name the edges of the lips (2.2 to 2.5), or there is no slit: the mouth closes at the "
+            "points only");
     if (maker.rig.eyeballs.empty())
-        made.notes.emplace_back("no eyeballs of their own: eyes do not turn, only their lids follow the gaze");
+        made.notes.emplace_back("no eyeballs were found at the points of the eyes: only the lids follow the gaze");
     if (tongue_places(maker.face, maker.weld).empty()) made.notes.emplace_back("no tongue: tongueOut moves nothing");
 }
 
