@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "mien/algorithms/carry_shapes.hpp"
-#include "mien/algorithms/rig_prior.hpp"
 #include "mien/error.hpp"
 #include "mien/io/read.hpp"
 
@@ -109,9 +108,12 @@ void append(std::vector<MorphTarget>& shapes, std::vector<MorphTarget> more) {
     shapes.insert(shapes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+}  // namespace
+
 // A file whose faces are those of the head has shapes of the head itself.
 Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report) {
     Examples examples;
+    Report files = Report::array();
     auto points = flags.examples_points.begin();
     for (const std::filesystem::path& file : flags.examples) {
         Face source{read_mesh(file), {}};
@@ -119,9 +121,9 @@ Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report
             throw Error(file.string() + ": expected shapes to learn from, found none");
         const bool is_own = source.mesh.face_vertices == whole.mesh.face_vertices &&
                             vertex_count(source.mesh) == vertex_count(whole.mesh);
-        report["examples"].push_back({{"file", file.filename().string()},
-                                      {"shapes", source.mesh.morph_targets.size()},
-                                      {"of", is_own ? "this head" : "another head, carried over"}});
+        files.push_back({{"file", file.filename().string()},
+                         {"shapes", source.mesh.morph_targets.size()},
+                         {"of", is_own ? "this head" : "another head, carried over"}});
         if (is_own) {
             append(examples.own, std::move(source.mesh.morph_targets));
             continue;
@@ -133,8 +135,11 @@ Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report
     }
     if (points != flags.examples_points.end())
         throw Error(points->string() + ": expected one --examples-points for each other head, found one more");
+    report["examples"] = std::move(files);
     return examples;
 }
+
+namespace {
 
 Rig learnt_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report& report) {
     const Examples examples = load_examples(whole, flags, report);

@@ -11,6 +11,7 @@
 
 #include "mien/algorithms/head.hpp"
 #include "mien/algorithms/retarget.hpp"
+#include "mien/algorithms/rig_prior.hpp"
 #include "mien/algorithms/riggers.hpp"
 #include "mien/algorithms/tracks.hpp"
 #include "mien/face.hpp"
@@ -36,6 +37,10 @@ Face load_face(const FaceFlags& flags, Report& report);
 
 /// Every file that is read.
 std::vector<std::filesystem::path> input_files(const FaceFlags& flags);
+
+/// The shapes of `--examples`: the head's own, and those of other heads carried over to it. `whole`: the head with all
+/// its points.
+Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report);
 
 /// Binds the rig, learning from example shapes where there are any, and tells the report how every part of the head was
 /// reached. `whole`: the face with all its points, through which shapes of other heads are carried over.

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 struct Shapes {
     FaceFlags face;
-    fs::path output, examples, sheet;
+    fs::path output, sheet;
     std::vector<std::string> sets, gains, shown;
     ShapesOptions shapes;
     LookFlags look;
@@ -50,19 +50,12 @@ ShapeGain gain_of(const std::string& text) {
     return gain;
 }
 
-ShapesOptions options_of(const Shapes& flags, const Face& face) {
+ShapesOptions options_of(const Shapes& flags, const Face& face, Report& report) {
     ShapesOptions options = flags.shapes;
     if (!flags.sets.empty()) options.sets.clear();
     for (const std::string& name : flags.sets) options.sets.push_back(sets.at(name));
     for (const std::string& text : flags.gains) options.gains.push_back(gain_of(text));
-    if (flags.examples.empty()) return options;
-    Mesh artist = read_mesh(flags.examples);
-    if (vertex_count(artist) != vertex_count(face.mesh))
-        throw Error(fmt::format("{}: expected the {} vertices of the head, found {}", flags.examples.string(),
-                                vertex_count(face.mesh), vertex_count(artist)));
-    if (artist.morph_targets.empty())
-        throw Error(flags.examples.string() + ": expected shapes (morph targets) to follow, found none");
-    options.examples = std::move(artist.morph_targets);
+    if (!flags.face.examples.empty()) options.examples = load_examples(face, flags.face, report).own;
     return options;
 }
 
@@ -141,12 +134,12 @@ void draw_sheet(Call& call, const Shapes& flags, const Face& face, const Rig& ri
 }
 
 void shapes(Call& call, const Shapes& flags) {
-    const std::vector<fs::path> inputs{flags.face.head, flags.face.points, flags.examples};
+    const std::vector<fs::path> inputs = input_files(flags.face);
     check_output(flags.output, inputs, call.flags);
     check_output(flags.sheet, inputs, call.flags);
     const Face face = load_face(flags.face, call.report);
-    const ShapesOptions options = options_of(flags, face);
-    const Rig rig = bind_rig(with_points(face, shape_points(face)), flags.face, call.report);
+    const ShapesOptions options = options_of(flags, face, call.report);
+    const Rig rig = bind_rig(with_points(face, shape_points(face)), face, flags.face, call.report);
     const FaceShapes made = make_shapes(face, rig, options);
     report_shapes(made, check_shapes(face, made.shapes), call.report);
     MorphTrack track;
@@ -159,9 +152,6 @@ void shapes(Call& call, const Shapes& flags) {
 
 void add_own_flags(CLI::App& verb, Shapes& flags) {
     verb.add_option("-o,--output", flags.output, "the head with its shapes (.glb)")->required();
-    verb.add_option("--examples", flags.examples,
-                    "the same head with an artist's shapes (.glb .gltf): they are kept, the missing ones follow their "
-                    "style");
     verb.add_option("--sets", flags.sets, "whose shapes, by commas (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"arkit", "visemes", "vrm"}));

@@ -95,7 +95,7 @@ class Shapes(unittest.TestCase):
         result = run("shapes", HEAD.parent / "cartoon.glb", "--points", HEAD.parent / "cartoon.points.json",
                      "--examples", self.head, "-o", self.work / "wrong.glb")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("vertices of the head", result.stderr)
+        self.assertIn("shapes are of another head", result.stderr)
 
     def test_a_gain_of_no_shape_is_refused(self):
         for gain, word in (("smirk=2", "smirk"), ("jawOpen", "SHAPE=NUMBER"), ("jawOpen=x", "SHAPE=NUMBER")):
