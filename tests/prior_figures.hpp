@@ -13,6 +13,8 @@
 
 #include "rig_figures.hpp"
 
+#include "mien/algorithms/suggest_points.hpp"
+
 namespace mien::figures {
 
 /// "browDown" of "browDown_L": what a shape and its mirror partner share.
@@ -97,20 +99,12 @@ inline Figures mixes(const Rig& rig, const Subject& subject, std::size_t count) 
     return mean(sum);
 }
 
-/// The subject whose face has only the points of a set; "suggested": those of "all_skin" and 13 more.
-inline void add_suggested_points(Face& face);
+/// The subject whose face has only the points of a set; "suggested": those of "all_skin" and the 13 that would help most.
 inline Subject with_points_of(const Subject& subject, const std::string& set) {
     Subject result{with_set(subject, set == "suggested" ? "all_skin" : set), {}, subject.skin};
-    if (set == "suggested") add_suggested_points(result.face);
+    if (set == "suggested")
+        for (const Suggestion& more : suggest_points(result.face, {13})) result.face.points.push_back(more.point);
     return result;
-}
-
-/// The sites that METHODS suggests beside the 73 points, with their mirrors: throat, under the jaw, jaw line, neck,
-/// under the chin, cheek, mid-forehead, below the jaw angle.
-inline void add_suggested_points(Face& face) {
-    for (const std::uint32_t v :
-         {970U, 8901U, 9223U, 2462U, 221U, 9008U, 3080U, 839U, 3465U, 1247U, 1851U, 8853U, 9176U})
-        face.points.push_back({"at " + std::to_string(v), v, to_double(face.mesh.positions[v]), {}, 0});
 }
 
 }  // namespace mien::figures
