@@ -99,7 +99,8 @@ inline Figures mixes(const Rig& rig, const Subject& subject, std::size_t count) 
     return mean(sum);
 }
 
-/// The subject whose face has only the points of a set; "suggested": those of "all_skin" and the 13 that would help most.
+/// The subject whose face has only the points of a set; "suggested": those of "all_skin" and the 13 that would help
+/// most.
 inline Subject with_points_of(const Subject& subject, const std::string& set) {
     Subject result{with_set(subject, set == "suggested" ? "all_skin" : set), {}, subject.skin};
     if (set == "suggested")
