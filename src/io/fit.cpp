@@ -21,36 +21,33 @@ namespace {
 
 using nlohmann::json;
 
+[[noreturn]] void fail_at(const std::string& place, std::string_view sentence) {
+    throw Error(fmt::format("fit{}{}: {}", place.empty() ? "" : " ", place, sentence));
+}
+
 // A value with the place where it lies.
 struct Node {
     const json& value;
     std::string place;
 
     [[noreturn]] void fail(std::string_view expected) const {
-        throw Error(fmt::format("fit {}: expected {}, found {}", place, expected, shown_json(value)));
+        fail_at(place, fmt::format("expected {}, found {}", expected, shown_json(value)));
     }
 };
-
-std::vector<std::string_view> known_keys(std::initializer_list<std::string_view> needed,
-                                         std::initializer_list<std::string_view> optional) {
-    std::vector<std::string_view> keys(needed);
-    keys.insert(keys.end(), optional.begin(), optional.end());
-    return keys;
-}
 
 // An object with all of the keys `needed` and none but those and `optional`.
 void check_keys(const Node& node, std::initializer_list<std::string_view> needed,
                 std::initializer_list<std::string_view> optional) {
     if (!node.value.is_object()) node.fail("an object");
+    std::vector<std::string_view> known(needed);
+    known.insert(known.end(), optional.begin(), optional.end());
     for (const std::string_view key : needed)
-        if (!node.value.contains(key))
-            throw Error(fmt::format("fit {}: expected the key {}, found none", node.place, key));
+        if (!node.value.contains(key)) fail_at(node.place, fmt::format("expected the key {}, found none", key));
     for (const auto& member : node.value.items()) {
         const std::string_view key = member.key();
-        const auto known = known_keys(needed, optional);
         if (key.starts_with('_') || std::find(known.begin(), known.end(), key) != known.end()) continue;
-        throw Error(fmt::format("fit {}{}: expected none but the keys {}, found another", node.place,
-                                json_pointer({key}), fmt::join(known, ", ")));
+        fail_at(node.place + json_pointer({key}),
+                fmt::format("expected none but the keys {}, found another", fmt::join(known, ", ")));
     }
 }
 
@@ -58,13 +55,12 @@ Node member(const Node& node, std::string_view key) {
     return {node.value[std::string(key)], node.place + json_pointer({key})};
 }
 
-// As many elements as an array has, at most those that anything may have; `read` makes one of each.
+// What `read` makes of each element of an array, which has no more of them than anything may have.
 template <class Read>
 auto read_array(const Node& node, const Read& read) {
     if (!node.value.is_array()) node.fail("an array");
     if (node.value.size() > most_fit_links)
-        throw Error(fmt::format("fit {}: expected at most {} elements, found {}", node.place, most_fit_links,
-                                node.value.size()));
+        fail_at(node.place, fmt::format("expected at most {} elements, found {}", most_fit_links, node.value.size()));
     std::vector<decltype(read(node))> elements;
     for (const json& element : node.value)
         elements.push_back(read(Node{element, fmt::format("{}/{}", node.place, elements.size())}));
@@ -121,7 +117,7 @@ FapInterpolation parse_fit(std::span<const std::byte> bytes) {
     const Node file{text.value, ""};
     check_keys(file, {"links"}, {});
     FapInterpolation fit{read_array(member(file, "links"), read_link)};
-    if (fit.links.empty()) throw Error("fit /links: expected links, found none");
+    if (fit.links.empty()) fail_at("/links", "expected links, found none");
     interpolated_faps(fit);
     return fit;
 }
