@@ -155,8 +155,10 @@ double value_of(const std::vector<FitTerm>& sum, const FitLink& link, const Valu
 
 std::optional<std::int32_t> interpolated_value(const FitLink& link, const FitTarget& target, const Values& value) {
     const double below = target.denominator.empty() ? 1 : value_of(target.denominator, link, value);
+    if (below == 0) return std::nullopt;
     const double result = std::round(value_of(target.numerator, link, value) / below);
-    if (below == 0 || !(std::abs(result) <= std::numeric_limits<std::int32_t>::max())) return std::nullopt;
+    // Nor is infinite by infinite a value.
+    if (!(std::abs(result) <= std::numeric_limits<std::int32_t>::max())) return std::nullopt;
     return static_cast<std::int32_t>(result);
 }
 

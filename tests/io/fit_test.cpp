@@ -3,7 +3,11 @@
 
 #include "mien/io/fit.hpp"
 
+#include <array>
+#include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 
 #include "io/hostile.hpp"
 
@@ -40,6 +44,21 @@ TEST(Fit, ReadsWhatItSays) {
            {18, {{40, {}, FitImpulse{14, -2}}, {0.001, {2, 1}, {}}}, {{1, {}, {}}, {0.1, {0, 2}, {}}}}}},
          {{5}, {{52, {{1, {1}, {}}}, {}}}}}};
     EXPECT_EQ(parse(forms), expected);
+}
+
+// -0.5 FAP3 / (1 + 0.00001 FAP14^2), as the document has it.
+TEST(Fit, TheExampleOfTheDocumentMeansWhatItSays) {
+    std::ifstream file(MIEN_SOURCE "/docs/mpeg4.md");
+    const std::string document(std::istreambuf_iterator<char>(file), {});
+    const std::size_t begin = document.find("```json\n");
+    ASSERT_NE(begin, std::string::npos);
+    const FapInterpolation fit =
+        parse(std::string_view(document).substr(begin + 8, document.find("```", begin + 8) - begin - 8));
+    std::array<std::int32_t, fap_count> value{};
+    value[fap_index(3)] = 500;
+    value[fap_index(14)] = 300;
+    EXPECT_EQ(interpolated_value(fit.links.at(0), fit.links.at(0).to.at(0), value), std::lround(-250 / 1.9));
+    EXPECT_EQ(interpolated_faps(fit).size(), 4U);
 }
 
 TEST(Fit, WhatIsWrittenReadsBackEqual) {
