@@ -73,6 +73,8 @@ void add_play(CLI::App& app, Call& call) {
                  "mien play kate-rig.glb smile.fap -o kate-smiles.glb", [&call, flags] { play(call, *flags); });
     verb->add_option("rig", flags->rig, "the rigged face (.glb written by mien rig)")->required();
     verb->add_option("faps", flags->faps, "the parameters: .fap .fba")->required();
+    verb->add_option("--fit", flags->fit,
+                     "how parameters that are not sent follow from those that are: an interpolation table (.json)");
     add_output_flags(*verb, flags->output);
 }
 
