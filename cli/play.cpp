@@ -38,6 +38,7 @@ FapInterpolation load_fit(const std::filesystem::path& file, Report& report) {
 
 Take told(const Take& take, const std::vector<std::string>& points) {
     std::vector<Rename> names;
+    names.reserve(points.size());
     for (const std::string& point : points) names.push_back({point, point});
     return rename_points(take, names);
 }
