@@ -23,8 +23,18 @@ namespace {
 struct Play {
     std::filesystem::path rig;
     std::filesystem::path faps;
+    std::filesystem::path fit;  // empty: none
     OutputFlags output;
 };
+
+// The table that fills what the stream leaves out, if one is given.
+FapInterpolation load_fit(const std::filesystem::path& file, Report& report) {
+    if (file.empty()) return {};
+    FapInterpolation fit = read_fit(file);
+    report["fit"] = {
+        {"file", file.filename().string()}, {"links", fit.links.size()}, {"parameters", interpolated_faps(fit)}};
+    return fit;
+}
 
 Take told(const Take& take, const std::vector<std::string>& points) {
     std::vector<Rename> names;
@@ -35,11 +45,12 @@ Take told(const Take& take, const std::vector<std::string>& points) {
 
 // Points of which the stream says nothing are carried by the skin between the others.
 void play(Call& call, const Play& flags) {
-    check_output(flags.output.output, {flags.rig, flags.faps}, call.flags);
+    check_output(flags.output.output, {flags.rig, flags.faps, flags.fit}, call.flags);
     RigFile file = read_rig(flags.rig);
     const Face face{file.mesh, file.rig.points};
     const Fapu fapu = measure_fapu(face);
-    const FapStream stream = resolve_faps(load_faps(flags.faps, call.report));
+    const FapInterpolation fit = load_fit(flags.fit, call.report);
+    const FapStream stream = resolve_faps(load_faps(flags.faps, call.report), standard_poses(), fit);
     const std::vector<std::string> points = told_points(stream, fapu);
     if (points.empty())
         throw Error(flags.faps.string() + ": expected parameters that move a point of this rig, found none");
@@ -63,6 +74,8 @@ void add_play(CLI::App& app, Call& call) {
                  "mien play kate-rig.glb smile.fap -o kate-smiles.glb", [&call, flags] { play(call, *flags); });
     verb->add_option("rig", flags->rig, "the rigged face (.glb written by mien rig)")->required();
     verb->add_option("faps", flags->faps, "the parameters: .fap .fba")->required();
+    verb->add_option("--fit", flags->fit,
+                     "how parameters that are not sent follow from those that are: an interpolation table (.json)");
     add_output_flags(*verb, flags->output);
 }
 

@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the mien authors
 
 // What a decoder of ISO/IEC 14496-2 does before it moves a face: visemes and expressions are put into parameters, and
-// missing parameters are interpolated, left from right and inner lip from outer lip and back.
+// missing parameters are interpolated, by the table of the face, left from right, and inner lip from outer lip and
+// back.
 
 #include "mien/algorithms/resolve_faps.hpp"
 
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
+#include <vector>
 
 namespace mien {
 
@@ -113,10 +116,31 @@ FapFrame defined(const FapFrame& frame, bool mouth_only) {
     return pose;
 }
 
+// One way to one parameter, of those that a table has.
+struct Rule {
+    const FitLink* link;
+    const FitTarget* target;
+    FapMask sources;
+};
+
+// In an order in which each parameter comes after all that it may follow from, and its first link before its second:
+// one pass over a frame is enough.
+std::vector<Rule> rules_of(const FapInterpolation& fit) {
+    std::vector<Rule> rules;
+    for (const int fap : interpolated_faps(fit))
+        for (const FitLink& link : fit.links)
+            for (const FitTarget& target : link.to) {
+                if (target.fap != fap) continue;
+                rules.push_back({&link, &target, {}});
+                for (const int source : link.from) rules.back().sources.set(fap_index(source));
+            }
+    return rules;
+}
+
 // What a decoder keeps from frame to frame.
 class Resolver {
 public:
-    explicit Resolver(FapPoses& poses) : poses_(poses) {}
+    Resolver(FapPoses& poses, const FapInterpolation& fit) : poses_(poses), rules_(rules_of(fit)) {}
 
     FapFrame resolve(const FapFrame& frame) {
         if (frame.mask[0]) select_viseme(frame);
@@ -133,6 +157,7 @@ public:
             if (result.mask[i])
                 result.value[i] = asked ? static_cast<std::int32_t>(std::lround(blend.value[i])) : sent_.value[i];
         }
+        interpolate(result);
         fill(result, [](const Fap& fap) { return fap.mirror; });
         fill(result, [](const Fap& fap) { return fap.partner; });
         return result;
@@ -158,6 +183,17 @@ private:
         return blend;
     }
 
+    void interpolate(FapFrame& frame) const {
+        for (const Rule& rule : rules_) {
+            const std::size_t i = fap_index(rule.target->fap);
+            if (frame.mask[i] || (frame.mask & rule.sources) != rule.sources) continue;
+            const std::optional<std::int32_t> value = interpolated_value(*rule.link, *rule.target, frame.value);
+            if (!value) continue;
+            frame.mask.set(i);
+            frame.value[i] = *value;
+        }
+    }
+
     // From the parameter that `source` names, where that one is known and this one is not.
     template <class Source>
     static void fill(FapFrame& frame, const Source& source) {
@@ -171,6 +207,7 @@ private:
     }
 
     FapPoses& poses_;
+    std::vector<Rule> rules_;
     Viseme viseme_;
     Expression expression_;
     FapFrame sent_;  // the last value of each parameter that was ever sent
@@ -178,10 +215,10 @@ private:
 
 }  // namespace
 
-FapStream resolve_faps(const FapStream& stream, FapPoses poses) {
+FapStream resolve_faps(const FapStream& stream, FapPoses poses, const FapInterpolation& fit) {
     FapStream resolved{stream.version, stream.name, stream.rate, {}};
     resolved.frames.reserve(stream.frames.size());
-    Resolver resolver(poses);
+    Resolver resolver(poses, fit);
     for (const FapFrame& frame : stream.frames) resolved.frames.push_back(resolver.resolve(frame));
     return resolved;
 }

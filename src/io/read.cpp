@@ -20,6 +20,7 @@
 #include "mien/error.hpp"
 #include "mien/io/c3d.hpp"
 #include "mien/io/fap_text.hpp"
+#include "mien/io/fit.hpp"
 #include "mien/io/marker_map.hpp"
 #include "mien/io/measured_points.hpp"
 #include "mien/io/obj.hpp"
@@ -178,6 +179,10 @@ DecodedFaps read_faps(const fs::path& path) {
     if (has_extension(path, ".fba")) return parsed(path, parse_fba);
     if (!has_extension(path, ".fap")) unknown_extension(path, ".fap or .fba");
     return parsed(path, [](std::span<const std::byte> bytes) { return DecodedFaps{parse_fap_text(bytes), {}}; });
+}
+
+FapInterpolation read_fit(const fs::path& path) {
+    return parsed(path, parse_fit);
 }
 
 PointsFile read_points(const fs::path& path, const Mesh& mesh) {

@@ -4,7 +4,11 @@
 #include "mien/algorithms/resolve_faps.hpp"
 
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string_view>
+
+#include "mien/error.hpp"
 
 namespace mien {
 namespace {
@@ -134,6 +138,112 @@ TEST(ResolveFaps, AStreamThatSaysAllIsUnchanged) {
     EXPECT_EQ(out.rate, 30);
     EXPECT_EQ(out.name, "all");
     EXPECT_EQ(resolve_faps(out).frames, out.frames);
+}
+
+// ---- the interpolation table
+
+// `to` is `times` of `from`.
+FitLink link(int from, int to, double times = 1) {
+    return {{from}, {{to, {{times, {1}, {}}}, {}}}};
+}
+
+FapStream resolved(std::initializer_list<FapFrame> frames, const FapInterpolation& fit) {
+    FapStream stream;
+    stream.frames = frames;
+    return resolve_faps(stream, standard_poses(), fit);
+}
+
+TEST(ResolveFaps, ATableThatCopiesLeftToRightEqualsTheRuleOfTheSides) {
+    FapInterpolation fit;
+    FapFrame left = frame(0, {});
+    for (int fap = 3; fap <= 68; ++fap) {
+        const std::string_view name = fap_info(fap).name;
+        if (name.find("_l_") == std::string_view::npos && name.find("_lm") == std::string_view::npos) continue;
+        fit.links.push_back(link(fap, fap_info(fap).mirror));
+        left.mask.set(fap_index(fap));
+        left.value[fap_index(fap)] = fap * fap - 900;
+    }
+    ASSERT_EQ(fit.links.size(), 23U);  // as many pairs as the standard has
+    EXPECT_EQ(resolved({left}, fit).frames, resolved({left}).frames);
+    EXPECT_EQ(resolved({left}, fit).frames.at(0).mask.count(), 46U);
+}
+
+TEST(ResolveFaps, ATableChangesNothingInAStreamThatSaysAll) {
+    FapInterpolation fit;
+    FapFrame all = frame(0, {});
+    for (int fap = 3; fap <= 68; ++fap) {
+        all.mask.set(fap_index(fap));
+        all.value[fap_index(fap)] = fap * fap - 900;
+        if (fap > 3) fit.links.push_back(link(fap - 1, fap, 2));
+    }
+    EXPECT_THAT(resolved({all}, fit).frames, testing::ElementsAre(all));
+}
+
+TEST(ResolveFaps, ATableComesBeforeTheRulesOfSidesAndLipsWhichThenUseWhatItGave) {
+    const FapFrame out = resolved({frame(0, {{3, 200}, {10, -10}, {57, 7}})}, {{link(3, 11, -0.5)}}).frames.at(0);
+    EXPECT_EQ(value(out, 11), -100);  // and not -10 from the other side
+    EXPECT_EQ(value(out, 10), -10);
+    EXPECT_EQ(value(out, 58), 7);  // the other side of its contour
+    const FapFrame lips = resolved({frame(0, {{3, 200}})}, {{link(3, 11, -0.5)}}).frames.at(0);
+    for (const int fap : {10, 11, 57, 58}) EXPECT_EQ(value(lips, fap), -100);
+    EXPECT_EQ(lips.mask.count(), 5U);
+}
+
+TEST(ResolveFaps, ATableNeverOverwritesWhatIsSentOrHeldOrAskedForByAViseme) {
+    const FapInterpolation fit{{link(31, 3), link(31, 33), link(31, 32)}};
+    const FapStream out = resolved(
+        {frame(0, {{31, 5}, {32, 20}}), frame(1, {{31, 6}}), with_viseme(frame(2, {{31, 7}}), {10, 0, 63, false})},
+        fit);
+    EXPECT_EQ(value(out.frames[0], 32), 20);
+    EXPECT_EQ(value(out.frames[1], 32), 20);
+    EXPECT_EQ(value(out.frames[2], 3), standard_poses().visemes[10].value[fap_index(3)]);
+    for (const int at : {0, 1, 2}) EXPECT_EQ(value(out.frames[static_cast<std::size_t>(at)], 33), 5 + at);
+    // In a group that is to be interpolated the table comes before what was sent last, which does not hold.
+    FapFrame interpolated = frame(1, {{31, 70}});
+    interpolated.interpolated.set(3);
+    EXPECT_EQ(value(resolved({frame(0, {{32, 20}}), interpolated}, fit).frames[1], 32), 70);
+}
+
+TEST(ResolveFaps, AnUnknownSourceLeavesTheTargetAlone) {
+    FitLink both = link(31, 5);
+    both.from.push_back(33);
+    both.to[0].numerator[0].exponents = {1, 0};  // known to be needless, yet a source
+    EXPECT_FALSE(resolved({frame(0, {{31, 9}})}, {{both}}).frames.at(0).mask[fap_index(5)]);
+    EXPECT_EQ(value(resolved({frame(0, {{31, 9}, {33, 1}})}, {{both}}).frames.at(0), 5), 9);
+    // The other side is looked at after the table.
+    EXPECT_FALSE(resolved({frame(0, {{32, 9}})}, {{link(31, 5)}}).frames.at(0).mask[fap_index(5)]);
+}
+
+TEST(ResolveFaps, LinksChainWhateverTheirOrder) {
+    for (const FapInterpolation& fit : {FapInterpolation{{link(3, 18, 2), link(18, 14, 3), link(14, 63, -1)}},
+                                        FapInterpolation{{link(14, 63, -1), link(18, 14, 3), link(3, 18, 2)}}}) {
+        const FapFrame out = resolved({frame(0, {{3, 10}})}, fit).frames.at(0);
+        EXPECT_EQ(value(out, 18), 20);
+        EXPECT_EQ(value(out, 14), 60);
+        EXPECT_EQ(value(out, 63), -60);
+    }
+}
+
+// FAP 14 from 18 first, although 18 itself comes late; from 3 where 18 stays unknown or gives nothing.
+TEST(ResolveFaps, TheFirstLinkOfTheListThatCanGivesTheValue) {
+    FitLink inverse = link(18, 14);
+    inverse.to[0] = {14, {{100, {}, {}}}, {{1, {1}, {}}}};
+    const FapInterpolation fit{{inverse, link(3, 14), link(63, 18)}};
+    EXPECT_EQ(value(resolved({frame(0, {{3, 7}, {63, 4}})}, fit).frames.at(0), 14), 25);
+    EXPECT_EQ(value(resolved({frame(0, {{3, 7}})}, fit).frames.at(0), 14), 7);
+    EXPECT_EQ(value(resolved({frame(0, {{3, 7}, {63, 0}})}, fit).frames.at(0), 14), 7);
+    EXPECT_FALSE(resolved({frame(0, {{63, 0}})}, fit).frames.at(0).mask[fap_index(14)]);
+}
+
+TEST(ResolveFaps, WhatIsResolvedWithATableIsSaidOutright) {
+    const FapInterpolation fit{{link(3, 5, -0.37), link(5, 18, 0.61)}};
+    const FapStream out = resolved({frame(0, {{3, 123}}), frame(4, {{3, -77}})}, fit);
+    EXPECT_EQ(resolve_faps(out, standard_poses(), fit).frames, out.frames);
+    EXPECT_EQ(resolve_faps(out).frames, out.frames);
+}
+
+TEST(ResolveFaps, ATableThatLeadsBackIsRefused) {
+    EXPECT_THROW(resolved({frame(0, {})}, {{link(31, 32), link(32, 31)}}), Error);
 }
 
 // A pose is symmetric, its lip contours agree, and it stays within the limits of the table.

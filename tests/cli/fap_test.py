@@ -105,6 +105,26 @@ class FaceAnimation(unittest.TestCase):
         self.assertEqual((self.out / "smile.fap.mdd").read_bytes(), (self.out / "s.fba.mdd").read_bytes())
         self.done("play", self.rig, self.smile, "-o", self.out / "p.glb")
 
+    def test_a_table_says_what_the_stream_leaves_out(self):
+        def played(name, stream, *arguments):
+            report = self.done("play", self.rig, stream, *arguments, "-o", self.out / f"{name}.mdd")
+            return report, (self.out / f"{name}.mdd").read_bytes()
+        jaw, both = self.work / "jaw.fap", self.work / "both.fap"
+        jaw.write_text(text([{3: 10 * i} for i in range(9)]), encoding="utf-8")
+        both.write_text(text([{3: 10 * i, 5: -5 * i} for i in range(9)]), encoding="utf-8")
+        table = self.work / "table.json"
+        link = {"from": [3], "to": [{"fap": 5, "numerator": [{"coefficient": -0.5, "exponents": [1]}]}]}
+        table.write_text(json.dumps({"links": [link]}), encoding="utf-8")
+        report, by_table = played("a", jaw, "--fit", table)
+        self.assertEqual(report["fit"], {"file": "table.json", "links": 1, "parameters": [5]})
+        self.assertEqual(by_table, played("b", both)[1])
+        self.assertNotEqual(by_table, played("c", jaw)[1])
+        for name in ("a", "b", "c"):
+            (self.out / f"{name}.mdd").unlink()
+        link["to"][0]["fap"] = 69
+        table.write_text(json.dumps({"links": [link]}), encoding="utf-8")
+        self.refused(1, ["table.json", "/links/0/to/0/fap"], "play", self.rig, jaw, "--fit", table, "-o", self.out / "d.mdd")
+
     def test_what_no_parameter_moves_is_refused(self):
         nothing = self.work / "nothing.fap"
         nothing.write_text("2.1 a 25 1\n" + " ".join(["0"] * 67 + ["x"]) + "\n0\n", encoding="utf-8")

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "mien/fap.hpp"
+#include "mien/fap_interpolation.hpp"
 
 namespace mien {
 
@@ -26,9 +27,14 @@ FapPoses standard_poses();
 ///     (1 - blend / 63), and select1 * intensity1 / 63 + select2 * intensity2 / 63. With `define` the frame's own
 ///     parameters become the pose of select1 from then on;
 ///  3. what was sent last, unless the frame's group is marked to be interpolated;
-///  4. the value of the same parameter on the other side of the face;
-///  5. the value of the same parameter of the other lip contour, inner or outer.
-/// FAPs 1 and 2 that are not sent hold, too. A face without them and without a source rests: the parameter stays out.
-FapStream resolve_faps(const FapStream& stream, FapPoses poses = standard_poses());
+///  4. what the interpolation table says, from values that are known by now or that it gives itself. It comes before
+///  the
+///     two rules below because its maker knew the face and the stream and they know neither; a link that wants the
+///     value of another side or contour names that one, and what a link gives serves both rules as if it was sent;
+///  5. the value of the same parameter on the other side of the face;
+///  6. the value of the same parameter of the other lip contour, inner or outer.
+/// FAPs 1 and 2 that are not sent hold, too; what a table gave does not, but is asked for anew in every frame. A face
+/// without them and without a source rests: the parameter stays out. Throws Error where the table is refused.
+FapStream resolve_faps(const FapStream& stream, FapPoses poses = standard_poses(), const FapInterpolation& fit = {});
 
 }  // namespace mien

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mien/face.hpp"
+#include "mien/fap_interpolation.hpp"
 #include "mien/io/fba.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
@@ -31,6 +32,9 @@ Take read_take(const std::filesystem::path& path);
 
 /// Reads face animation parameters by their extension: .fap (text) .fba (bitstream).
 DecodedFaps read_faps(const std::filesystem::path& path);
+
+/// Reads an interpolation table (.json).
+FapInterpolation read_fit(const std::filesystem::path& path);
 
 /// Reads feature points for a mesh.
 PointsFile read_points(const std::filesystem::path& path, const Mesh& mesh);
