@@ -59,7 +59,7 @@ MorphTarget& target_of(Growing& out, const std::string& name) {
 }
 
 std::string part_name(const Growing& out, std::size_t mesh, const Standing& standing) {
-    const std::string own = text_member(out.document.json["meshes"][mesh], "name", fmt::format("/meshes/{}", mesh));
+    std::string own = text_member(out.document.json["meshes"][mesh], "name", fmt::format("/meshes/{}", mesh));
     if (!own.empty() || !standing.node) return own;
     return text_member(out.document.json["nodes"][*standing.node], "name", fmt::format("/nodes/{}", *standing.node));
 }

@@ -90,7 +90,7 @@ std::vector<std::byte> decode_data_uri(std::string_view uri, const std::string& 
 }
 
 std::string relative_path(std::string_view uri, const std::string& pointer) {
-    const std::string path = percent_decoded(uri);
+    std::string path = percent_decoded(uri);
     const bool absolute = path.empty() || path[0] == '/' || path[0] == '\\';
     const bool scheme = uri.substr(0, uri.find('/')).find(':') != std::string_view::npos;
     if (absolute || scheme || path.find('\0') != std::string::npos)

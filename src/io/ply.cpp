@@ -244,8 +244,9 @@ double read_scalar(Body& body, Type type) {
 std::size_t read_length(Body& body, const Property& property) {
     const double length = read_scalar(body, *property.list_count);
     const std::size_t least = body.encoding == Encoding::ascii ? 2 : size_of(property.type);  // a blank and a digit
-    if (!(length >= 0 && length <= static_cast<double>(body.left() / least)))
-        body.fail(fmt::format("a list of at most {} entries", body.left() / least), fmt::format("{}", length));
+    const std::size_t most = body.left() / least;
+    if (!(length >= 0 && length <= static_cast<double>(most)))
+        body.fail(fmt::format("a list of at most {} entries", most), fmt::format("{}", length));
     return static_cast<std::size_t>(length);
 }
 

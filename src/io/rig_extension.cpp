@@ -101,6 +101,7 @@ FeaturePoint read_point(const json& written, const std::string& pointer, std::si
 
 void check_ids(const std::vector<FeaturePoint>& points) {
     std::vector<std::string_view> ids;
+    ids.reserve(points.size());
     for (const FeaturePoint& point : points) ids.emplace_back(point.id);
     std::sort(ids.begin(), ids.end());
     const auto twice = std::adjacent_find(ids.begin(), ids.end());

@@ -243,9 +243,11 @@ Face lids_and_lash() {
     for (const std::uint32_t v : {40U, 2U, 6U})
         face.points.push_back(shapes::point_at(face.mesh, "low" + std::to_string(v), lower + v));
     Mesh lash = shapes::grid(4, 2, 0.125F);
-    for (std::uint32_t v = 0; v < 15; ++v)
-        lash.positions[v] = {0.75F + 0.125F * static_cast<float>(v % 5), 0.1F - 0.07F * static_cast<float>(v / 5),
-                             0.01F + 0.02F * static_cast<float>(v / 5)};
+    for (std::uint32_t v = 0; v < 15; ++v) {
+        const std::uint32_t row = v / 5;
+        lash.positions[v] = {0.75F + 0.125F * static_cast<float>(v % 5), 0.1F - 0.07F * static_cast<float>(row),
+                             0.01F + 0.02F * static_cast<float>(row)};
+    }
     add_piece(face, "lash", lash);
     return face;
 }

@@ -187,6 +187,7 @@ TEST(CarryShapes, HeadsThatShareTooFewPointsAreRefused) {
 
 TEST(NearestPlaces, AreThoseThatALookAtAllOfThemFinds) {
     std::vector<Vec3> points;
+    points.reserve(520);
     for (int i = 0; i < 500; ++i)
         points.push_back({std::fmod(i * 0.618, 1), std::fmod(i * 0.414, 1), std::fmod(i * 0.732, 1)});
     points.insert(points.end(), points.begin(), points.begin() + 20);  // some twice

@@ -51,8 +51,8 @@ TEST_F(PriorFigures, MixesOfKnownShapesComeBackWithAlmostNoFlips) {
 TEST_F(PriorFigures, EightPointsAVertexDoAlmostAsWellAsAll) {
     const Subject asked = figures::with_points_of(subject, "all_skin");
     std::vector<MorphTarget> half;
-    for (std::size_t k = 0; k < shapes().size(); ++k)
-        if (shapes()[k].name.starts_with("mouth") || shapes()[k].name.starts_with("jaw")) half.push_back(shapes()[k]);
+    for (const MorphTarget& shape : shapes())
+        if (shape.name.starts_with("mouth") || shape.name.starts_with("jaw")) half.push_back(shape);
     const auto error = [&](std::uint32_t influences) {
         return figures::singles(rig_prior(asked.face, {half, {}}, {.influences = influences}), asked).error;
     };

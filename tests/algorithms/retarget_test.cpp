@@ -474,6 +474,7 @@ std::vector<Vec3> places(const char* file, const std::vector<std::uint32_t>& ver
     const std::string text = text_of(shared / "ict" / file);
     const Mesh mesh = parse_obj(std::as_bytes(std::span(text)));
     std::vector<Vec3> result;
+    result.reserve(vertices.size());
     for (const std::uint32_t v : vertices) result.push_back(to_double(mesh.positions[v]));
     return result;
 }

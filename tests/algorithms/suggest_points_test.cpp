@@ -46,6 +46,7 @@ Face ordinary_face() {
 
 std::vector<std::string> names(const std::vector<Suggestion>& list) {
     std::vector<std::string> ids;
+    ids.reserve(list.size());
     for (const Suggestion& s : list) ids.push_back(s.point.id);
     return ids;
 }
