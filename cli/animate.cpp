@@ -29,7 +29,8 @@ void animate(Call& call, Animate& flags) {
     const Face face = load_face(flags.face, call.report);
     flags.performance.retarget.reading = flags.face.rig.reading;
     const Take onto = load_performance(flags.performance, face, call.report);
-    const Rig rig = bind_rig(with_points(face, onto.points), face, flags.face, call.report);
+    const Examples examples = load_examples(face, flags.face, call.report);
+    const Rig rig = bind_rig(with_points(face, onto.points), examples, flags.face, call.report);
     write_performance(call, flags.output, face.mesh, rig, onto);
 }
 

@@ -113,6 +113,7 @@ void append(std::vector<MorphTarget>& shapes, std::vector<MorphTarget> more) {
 // A file whose faces are those of the head has shapes of the head itself.
 Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report) {
     Examples examples;
+    if (flags.examples.empty()) return examples;
     Report files = Report::array();
     auto points = flags.examples_points.begin();
     for (const std::filesystem::path& file : flags.examples) {
@@ -141,8 +142,7 @@ Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report
 
 namespace {
 
-Rig learnt_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report& report) {
-    const Examples examples = load_examples(whole, flags, report);
+Rig learnt_rig(const Face& face, const Examples& examples, const FaceFlags& flags, Report& report) {
     Rig rig = rig_prior(face, examples, {!flags.linear_prior, flags.rig.influences});
     report["prior"] = {{"shapes", rig.prior->shapes.size()},
                        {"left_out_because_they_move_no_skin",
@@ -153,8 +153,9 @@ Rig learnt_rig(const Face& face, const Face& whole, const FaceFlags& flags, Repo
 
 }  // namespace
 
-Rig bind_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report& report) {
-    Rig rig = flags.examples.empty() ? make_rig(face, flags.method, flags.rig) : learnt_rig(face, whole, flags, report);
+Rig bind_rig(const Face& face, const Examples& examples, const FaceFlags& flags, Report& report) {
+    Rig rig =
+        flags.examples.empty() ? make_rig(face, flags.method, flags.rig) : learnt_rig(face, examples, flags, report);
     Report& bound = report["rig"];
     bound["method"] = rig.method;
     bound["points"] = rig.points.size();
@@ -163,10 +164,6 @@ Rig bind_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report
     for (const Attachment& part : rig.attachments)
         bound["attached"].push_back({{"part", part.name}, {"how", part.how}, {"vertices", part.vertices}});
     return rig;
-}
-
-Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report) {
-    return bind_rig(face, face, flags, report);
 }
 
 void add_take_flags(CLI::App& verb, TakeFlags& flags) {

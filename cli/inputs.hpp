@@ -38,14 +38,13 @@ Face load_face(const FaceFlags& flags, Report& report);
 /// Every file that is read.
 std::vector<std::filesystem::path> input_files(const FaceFlags& flags);
 
-/// The shapes of `--examples`: the head's own, and those of other heads carried over to it. `whole`: the head with all
-/// its points.
+/// The shapes of `--examples`: the head's own, and those of other heads carried over to it; none without the flag.
+/// `whole`: the head with all its points, through which shapes are carried over.
 Examples load_examples(const Face& whole, const FaceFlags& flags, Report& report);
 
 /// Binds the rig, learning from example shapes where there are any, and tells the report how every part of the head was
-/// reached. `whole`: the face with all its points, through which shapes of other heads are carried over.
-Rig bind_rig(const Face& face, const Face& whole, const FaceFlags& flags, Report& report);
-Rig bind_rig(const Face& face, const FaceFlags& flags, Report& report);
+/// reached.
+Rig bind_rig(const Face& face, const Examples& examples, const FaceFlags& flags, Report& report);
 
 /// Whether a file holds a take, by its extension.
 bool is_take(const std::filesystem::path& file);

@@ -47,7 +47,7 @@ std::vector<MeasuredPoint> load_measured(const Morph& flags) {
 RigFile load_rigged(const FaceFlags& flags, Report& report) {
     if (flags.points.empty()) return read_rig(flags.head);
     Face face = load_face(flags, report);
-    Rig rig = bind_rig(face, flags, report);
+    Rig rig = bind_rig(face, load_examples(face, flags, report), flags, report);
     return {std::move(face.mesh), std::move(rig)};
 }
 

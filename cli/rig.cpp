@@ -27,7 +27,7 @@ void rig(Call& call, const MakeRig& flags) {
     inputs.push_back(flags.output.output);
     check_output(flags.picture, inputs, call.flags);
     const Face face = load_face(flags.face, call.report);
-    const Rig rig = bind_rig(face, flags.face, call.report);
+    const Rig rig = bind_rig(face, load_examples(face, flags.face, call.report), flags.face, call.report);
     const Skin skin = skin_for(call, flags.output, face.mesh, rig, Take{});
     write_output(call, flags.output.output, format_rig(face.mesh, rig, skin));
     if (flags.picture.empty() || call.flags.dry_run) return;

@@ -50,12 +50,11 @@ ShapeGain gain_of(const std::string& text) {
     return gain;
 }
 
-ShapesOptions options_of(const Shapes& flags, const Face& face, Report& report) {
+ShapesOptions options_of(const Shapes& flags) {
     ShapesOptions options = flags.shapes;
     if (!flags.sets.empty()) options.sets.clear();
     for (const std::string& name : flags.sets) options.sets.push_back(sets.at(name));
     for (const std::string& text : flags.gains) options.gains.push_back(gain_of(text));
-    if (!flags.face.examples.empty()) options.examples = load_examples(face, flags.face, report).own;
     return options;
 }
 
@@ -138,8 +137,10 @@ void shapes(Call& call, const Shapes& flags) {
     check_output(flags.output, inputs, call.flags);
     check_output(flags.sheet, inputs, call.flags);
     const Face face = load_face(flags.face, call.report);
-    const ShapesOptions options = options_of(flags, face, call.report);
-    const Rig rig = bind_rig(with_points(face, shape_points(face)), face, flags.face, call.report);
+    ShapesOptions options = options_of(flags);
+    Examples examples = load_examples(face, flags.face, call.report);
+    const Rig rig = bind_rig(with_points(face, shape_points(face)), examples, flags.face, call.report);
+    options.examples = std::move(examples.own);
     const FaceShapes made = make_shapes(face, rig, options);
     report_shapes(made, check_shapes(face, made.shapes), call.report);
     MorphTrack track;

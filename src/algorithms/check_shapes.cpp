@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "algorithms/area_vector.hpp"
 #include "algorithms/margins.hpp"
 
 #include "mien/error.hpp"
@@ -82,15 +83,6 @@ std::optional<double> upper_lip_share(const Face& face, std::span<const MorphTar
     const double moves = length(motion_of(*open, face.points[*lower].vertex));
     if (!(moves > 0)) return std::nullopt;
     return length(motion_of(*open, face.points[*upper].vertex)) / moves;
-}
-
-// From the first corner, so that coordinates stay small.
-Vec3 area_vector(const Positions& p, std::span<const std::uint32_t> corners) {
-    Vec3 sum;
-    const Vec3 origin = to_double(p[corners[0]]);
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-        sum += cross(to_double(p[corners[i]]) - origin, to_double(p[corners[i + 1]]) - origin);
-    return sum;
 }
 
 void count_flipped(const Face& face, std::span<const MorphTarget> shapes, ShapesCheck& check) {

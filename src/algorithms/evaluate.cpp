@@ -14,6 +14,7 @@
 #include <span>
 #include <string_view>
 
+#include "algorithms/area_vector.hpp"
 #include "algorithms/margins.hpp"
 #include "algorithms/regions.hpp"
 
@@ -131,15 +132,6 @@ void add(Sums& sums, double error, double motion, double eyes) {
 struct FaceCount {
     std::size_t moving = 0, flipped = 0;
 };
-
-// The area vector of a polygon, from its first corner so that coordinates stay small.
-Vec3 area_vector(const Positions& p, std::span<const std::uint32_t> corners) {
-    Vec3 sum;
-    const Vec3 origin = to_double(p[corners[0]]);
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-        sum += cross(to_double(p[corners[i]]) - origin, to_double(p[corners[i + 1]]) - origin);
-    return sum;
-}
 
 FaceCount count_faces(const Ground& ground, const Positions& truth, const Positions& found) {
     const Mesh& mesh = ground.face.mesh;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
+#include "refusal.hpp"
 #include "shapes.hpp"
 #include "slit_mask.hpp"
 
@@ -157,16 +158,6 @@ TEST(Evaluate, shapes_that_move_nothing_are_named_and_left_out) {
     const Evaluation evaluation = evaluate(face, rig_biharmonic(face));
     EXPECT_EQ(evaluation.shapes.size(), 2U);
     EXPECT_EQ(evaluation.still, std::vector<std::string>{"sil"});
-}
-
-template <class Call>
-std::string refusal(Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
 }
 
 TEST(Evaluate, refuses_a_head_without_shapes) {

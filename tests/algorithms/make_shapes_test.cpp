@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "refusal.hpp"
 #include "slit_mask.hpp"
 
 #include "mien/algorithms/check_shapes.hpp"
@@ -318,16 +319,6 @@ TEST(MakeShapes, lids_slide_over_the_eyeballs_and_do_not_sink_into_them) {
                 << name << " " << v;
         }
     }
-}
-
-template <class Call>
-std::string refusal(Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
 }
 
 TEST(MakeShapes, refuses_points_that_the_table_does_not_know) {

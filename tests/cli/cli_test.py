@@ -4,11 +4,9 @@
 import array
 import json
 import math
-import pathlib
 import re
 import shutil
 import struct
-import tempfile
 import unittest
 
 import program
@@ -18,17 +16,8 @@ ROWS = 24
 VERBS = ("animate", "inspect", "points", "rig", "retarget", "deform", "faps", "play", "encode", "decode", "morph")
 
 
-class CommandLine(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.work = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.work)
-        cls.take = cls.work / "short.trc"
-        cls.take.write_text(program.some_rows(TAKE, ROWS), encoding="utf-8")
-
-    def setUp(self):
-        self.out = self.work / self.id().rsplit(".", 1)[-1]
-        self.out.mkdir()
+class CommandLine(program.ProgramTest):
+    rows = ROWS
 
     def animate(self, output, *flags, **environment):
         return run("animate", HEAD, "--points", POINTS, "--take", self.take, "--map", MAP, "-o", output, *flags,

@@ -2,10 +2,7 @@
 # Copyright (c) 2026 the mien authors
 """Rigs that learn from example shapes, from the command line. usage: MIEN=build/release/mien examples_test.py"""
 import json
-import pathlib
-import shutil
 import struct
-import tempfile
 import unittest
 
 import program
@@ -19,30 +16,20 @@ def glb_json(path):
     return json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
 
 
-class Examples(unittest.TestCase):
+class Examples(program.ProgramTest):
+    rows = 12
+
     @classmethod
     def setUpClass(cls):
-        cls.work = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.work)
-        cls.take = cls.work / "short.trc"
-        cls.take.write_text(program.some_rows(TAKE, 12), encoding="utf-8")
+        super().setUpClass()
         cls.shapes = cls.work / "shapes.glb"
         done = run("animate", HEAD, "--points", POINTS, "--take", cls.take, "--map", MAP, "--bake", "morphs", "--morphs",
                    "6", "-o", cls.shapes)
         assert done.returncode == 0, done.stderr
 
-    def setUp(self):
-        self.out = self.work / self.id().rsplit(".", 1)[-1]
-        self.out.mkdir()
-
-    def done(self, *arguments):
-        result = run(*arguments, "--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)
-
     def rig(self, head, points, *flags):
         file = self.out / "rig.glb"
-        return file, self.done("rig", head, "--points", points, "-o", file, *flags)
+        return file, self.report("rig", head, "--points", points, "-o", file, *flags)
 
     def test_shapes_of_the_head_itself_are_taken_as_its_own(self):
         file, report = self.rig(HEAD, POINTS, "--examples", self.shapes)
@@ -66,7 +53,7 @@ class Examples(unittest.TestCase):
 
     def test_an_animated_head_plays_its_shapes_over_time(self):
         file = self.out / "a.glb"
-        self.done("animate", HEAD, "--points", POINTS, "--take", self.take, "--map", MAP, "--examples", self.shapes, "-o",
+        self.report("animate", HEAD, "--points", POINTS, "--take", self.take, "--map", MAP, "--examples", self.shapes, "-o",
                   file)
         root = glb_json(file)
         paths = {channel["target"]["path"] for channel in root["animations"][0]["channels"]}
@@ -76,8 +63,8 @@ class Examples(unittest.TestCase):
     def test_a_rig_file_with_shapes_is_retargeted_to_and_deforms(self):
         file, _ = self.rig(HEAD, POINTS, "--examples", self.shapes)
         onto = self.out / "onto.csv"
-        self.done("retarget", self.take, "--map", MAP, "--rig", file, "-o", onto)
-        self.done("deform", file, onto, "-o", self.out / "d.mdd")
+        self.report("retarget", self.take, "--map", MAP, "--rig", file, "-o", onto)
+        self.report("deform", file, onto, "-o", self.out / "d.mdd")
         frames, points = struct.unpack_from(">II", (self.out / "d.mdd").read_bytes())
         self.assertEqual((frames, points), (12, json.loads(run("inspect", HEAD, "--json").stdout)["vertices"]))
 

@@ -2,10 +2,7 @@
 # Copyright (c) 2026 the mien authors
 """What the verbs of MPEG-4 face animation promise. usage: MIEN=build/release/mien fap_test.py"""
 import json
-import pathlib
 import re
-import shutil
-import tempfile
 import unittest
 
 import program
@@ -34,26 +31,14 @@ def text(frames, rate=25):
     return "\n".join(lines) + "\n"
 
 
-class FaceAnimation(unittest.TestCase):
+class FaceAnimation(program.ProgramTest):
     @classmethod
     def setUpClass(cls):
-        cls.work = pathlib.Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, cls.work)
-        cls.take = cls.work / "short.trc"
-        cls.take.write_text(program.some_rows(TAKE, 24), encoding="utf-8")
+        super().setUpClass()
         cls.rig = cls.work / "rig.glb"
         assert run("rig", HEAD, "--points", POINTS, "-o", cls.rig).returncode == 0
         cls.smile = cls.work / "smile.fap"
         cls.smile.write_text(text([{53: 10 * i, 3: 5 * i} for i in range(20)]), encoding="utf-8")
-
-    def setUp(self):
-        self.out = self.work / self.id().rsplit(".", 1)[-1]
-        self.out.mkdir()
-
-    def done(self, *arguments):
-        result = run(*arguments, "--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)
 
     def refused(self, status, words, *arguments):
         result = run(*arguments)
@@ -63,51 +48,51 @@ class FaceAnimation(unittest.TestCase):
         self.assertEqual(list(self.out.iterdir()), [])
 
     def test_markers_become_parameters_in_the_performers_own_units(self):
-        report = self.done("faps", self.take, "--points", MAP, "-o", self.out / "a.fap")
+        report = self.report("faps", self.take, "--points", MAP, "-o", self.out / "a.fap")
         self.assertEqual(report["faps"]["frames"], 24)
         self.assertGreater(report["units"]["mw"], 0)
         frames = read(self.out / "a.fap")
         self.assertEqual(len(frames), 24)
         self.assertEqual({value for fap, value in frames[0].items() if fap not in (48, 49, 50)}, {0})
         self.assertTrue(any(abs(value) > 50 for frame in frames.values() for value in frame.values()))
-        self.done("faps", self.take, "--map", MAP, "-o", self.out / "b.fap")
+        self.report("faps", self.take, "--map", MAP, "-o", self.out / "b.fap")
         self.assertEqual((self.out / "a.fap").read_bytes(), (self.out / "b.fap").read_bytes())
 
     def test_a_stream_comes_back_as_it_was_coded(self):
-        report = self.done("encode", self.smile, "-o", self.out / "s.fba", "--quant", 0)
+        report = self.report("encode", self.smile, "-o", self.out / "s.fba", "--quant", 0)
         self.assertEqual(report["bitstream"]["values_clamped"], 0)
-        self.done("decode", self.out / "s.fba", "-o", self.out / "s.fap")
+        self.report("decode", self.out / "s.fba", "-o", self.out / "s.fap")
         self.assertEqual(read(self.out / "s.fap"), read(self.smile))
 
     def test_a_bit_rate_is_kept_to(self):
         busy = self.work / "busy.fap"
         busy.write_text(text([{fap: 37 * i * fap % 401 for fap in range(51, 61)} for i in range(60)]), encoding="utf-8")
-        fine = self.done("encode", busy, "-o", self.out / "a.fba")["bitstream"]
+        fine = self.report("encode", busy, "-o", self.out / "a.fba")["bitstream"]
         asked = 0.8 * fine["kilobits_per_second"]
-        coarse = self.done("encode", busy, "-o", self.out / "b.fba", "--bitrate", asked)["bitstream"]
+        coarse = self.report("encode", busy, "-o", self.out / "b.fba", "--bitrate", asked)["bitstream"]
         self.assertLessEqual(coarse["kilobits_per_second"], asked)
         self.assertGreater(coarse["quantiser"], fine["quantiser"])
 
     def test_a_cut_stream_gives_its_whole_frames_and_a_warning(self):
-        self.done("encode", self.smile, "-o", self.out / "s.fba")
+        self.report("encode", self.smile, "-o", self.out / "s.fba")
         cut = self.out / "cut.fba"
         cut.write_bytes((self.out / "s.fba").read_bytes()[:-9])
-        report = self.done("decode", cut, "-o", self.out / "c.fap")
+        report = self.report("decode", cut, "-o", self.out / "c.fap")
         self.assertIn("cut", report["warnings"][0])
         self.assertTrue(0 < len(read(self.out / "c.fap")) < 20)
 
     def test_a_rigged_face_plays_text_and_stream_alike(self):
-        self.done("encode", self.smile, "-o", self.out / "s.fba", "--quant", 0)
+        self.report("encode", self.smile, "-o", self.out / "s.fba", "--quant", 0)
         for name in ("smile.fap", "s.fba"):
             source = self.smile if name == "smile.fap" else self.out / name
-            report = self.done("play", self.rig, source, "-o", self.out / f"{name}.mdd")
+            report = self.report("play", self.rig, source, "-o", self.out / f"{name}.mdd")
             self.assertEqual(report["wrote"]["rows"], 20)
         self.assertEqual((self.out / "smile.fap.mdd").read_bytes(), (self.out / "s.fba.mdd").read_bytes())
-        self.done("play", self.rig, self.smile, "-o", self.out / "p.glb")
+        self.report("play", self.rig, self.smile, "-o", self.out / "p.glb")
 
     def test_a_table_says_what_the_stream_leaves_out(self):
         def played(name, stream, *arguments):
-            report = self.done("play", self.rig, stream, *arguments, "-o", self.out / f"{name}.mdd")
+            report = self.report("play", self.rig, stream, *arguments, "-o", self.out / f"{name}.mdd")
             return report, (self.out / f"{name}.mdd").read_bytes()
         jaw, both = self.work / "jaw.fap", self.work / "both.fap"
         jaw.write_text(text([{3: 10 * i} for i in range(9)]), encoding="utf-8")
@@ -136,7 +121,7 @@ class FaceAnimation(unittest.TestCase):
 
     def test_filters_do_what_they_say(self):
         def filtered(verb, *arguments):
-            self.done("fap", verb, *arguments, "-f", "-o", self.out / "r.fap")
+            self.report("fap", verb, *arguments, "-f", "-o", self.out / "r.fap")
             return read(self.out / "r.fap")
         plain = read(self.smile)
         mirrored = filtered("mirror", self.smile)
@@ -149,14 +134,14 @@ class FaceAnimation(unittest.TestCase):
         other = self.work / "other.fap"
         other.write_text(text([{31: 100}] * 20), encoding="utf-8")
         self.assertEqual(filtered("blend", self.smile, other, "--share", 0.25)[4][31], 25)
-        rows = {row["fap"]: row for row in self.done("fap", "statistics", self.smile)["statistics"]}
+        rows = {row["fap"]: row for row in self.report("fap", "statistics", self.smile)["statistics"]}
         self.assertEqual((rows[53]["low"], rows[53]["high"]), (0, max(frame[53] for frame in plain.values())))
 
     def test_a_part_that_is_none_is_refused(self):
         self.refused(1, ["knee", "mouth"], "fap", "scale", self.smile, "--strength", "knee=2", "-o", self.out / "r.fap")
 
     def test_inspect_says_what_is_in_a_stream(self):
-        self.assertEqual(self.done("inspect", self.smile)["faps"]["parameters"], 2)
+        self.assertEqual(self.report("inspect", self.smile)["faps"]["parameters"], 2)
 
     def test_the_help_of_every_filter_has_an_example_with_its_own_flags(self):
         for verb in FILTERS:
@@ -168,28 +153,28 @@ class FaceAnimation(unittest.TestCase):
                 self.assertIn(flag, result.stdout[:example.start()])
 
     def test_a_head_is_reshaped_to_measured_points_and_keeps_its_rig(self):
-        report = self.done("morph", HEAD, "--points", POINTS, "--to", POINTS, "--to-head", HEAD, "-o", self.out / "m.glb")
+        report = self.report("morph", HEAD, "--points", POINTS, "--to", POINTS, "--to-head", HEAD, "-o", self.out / "m.glb")
         self.assertEqual(report["morph"]["points_carried_by_the_skin"], [])
         self.assertEqual((self.out / "m.glb").read_bytes(), self.rig.read_bytes())  # to its own points: nothing changes
         front, side = self.work / "front.json", self.work / "side.json"
         front.write_text('{"3.7": [50, 10, null], "3.8": [-50, 10, null], "2.1": [0, -120, null]}', encoding="utf-8")
         side.write_text('{"3.7": [null, 10, 5], "2.1": [null, -120, 0], "3.8": [null, 10, 5]}', encoding="utf-8")
-        report = self.done("morph", self.rig, "--to", front, "--to", side, "-o", self.out / "n.glb")
+        report = self.report("morph", self.rig, "--to", front, "--to", side, "-o", self.out / "n.glb")
         self.assertEqual(report["morph"]["points_met"], 3)
-        self.done("play", self.out / "n.glb", self.smile, "-o", self.out / "p.mdd")
+        self.report("play", self.out / "n.glb", self.smile, "-o", self.out / "p.mdd")
         front.write_text('{"3.7": 4}', encoding="utf-8")
         self.assertIn("front.json", run("morph", self.rig, "--to", front, "-o", self.out / "q.glb").stderr)
 
     @unittest.skipUnless(SHARED.is_dir(), "no data beside the project")
     def test_every_real_stream_plays_on_the_sample_head(self):
         for path in sorted((SHARED.parent / "mpeg4" / "samples").rglob("*.fap")):
-            report = self.done("play", self.rig, path, "-f", "-o", self.out / "p.mdd")
+            report = self.report("play", self.rig, path, "-f", "-o", self.out / "p.mdd")
             self.assertGreater(report["wrote"]["rows"], 0, path)
 
     @unittest.skipUnless(SHARED.is_dir(), "no data beside the project")
     def test_a_take_may_be_a_c3d_file(self):
         sample = SHARED / "malformed" / "mocap" / "c3d" / "sample02_pc_int.c3d"
-        self.assertEqual(self.done("inspect", sample)["rows"], 89)
+        self.assertEqual(self.report("inspect", sample)["rows"], 89)
 
 
 if __name__ == "__main__":

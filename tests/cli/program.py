@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the mien authors
 """Calling the program from a test: where it is, the sample it works on, and heads and takes beside the project."""
+import json
 import os
 import pathlib
+import shutil
 import subprocess
+import tempfile
+import unittest
 
 MIEN = pathlib.Path(os.environ["MIEN"]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -34,3 +38,25 @@ def some_rows(trc, rows):
             values[i] = str(rows)
     kept[2] = "\t".join(values)
     return "\n".join(kept) + "\n"
+
+
+class ProgramTest(unittest.TestCase):
+    """Has a folder `work` for the class with a short take in it, `rows` long, and one `out` for each test."""
+    rows = 24
+
+    @classmethod
+    def setUpClass(cls):
+        cls.work = pathlib.Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.work)
+        cls.take = cls.work / "short.trc"
+        cls.take.write_text(some_rows(TAKE, cls.rows), encoding="utf-8")
+
+    def setUp(self):
+        self.out = self.work / self.id().rsplit(".", 1)[-1]
+        self.out.mkdir()
+
+    def report(self, *arguments):
+        """What a call that must succeed reports."""
+        result = run(*arguments, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
