@@ -29,12 +29,13 @@ std::optional<std::size_t> lid_of(const Rig& rig, const Eyeball& eyeball, double
 }
 
 std::vector<LidsOverEye> lids_over_eyes(const Rig& rig) {
-    constexpr std::array<std::array<std::string_view, 2>, 2> sides{{{"3.1", "3.3"}, {"3.2", "3.4"}}};
+    constexpr std::array<std::array<std::string_view, 2>, 4> pairs{
+        {{"3.1", "3.3"}, {"3.2", "3.4"}, {"3.13", "3.9"}, {"3.14", "3.10"}}};
     std::vector<LidsOverEye> lids;
     for (const Eyeball& eyeball : rig.eyeballs) {
         if (eyeball.vertices.empty()) continue;
         const double radius = mean_radius(rig, eyeball);
-        for (const auto& [upper_id, lower_id] : sides) {
+        for (const auto& [upper_id, lower_id] : pairs) {
             const auto upper = lid_of(rig, eyeball, radius, upper_id), lower = lid_of(rig, eyeball, radius, lower_id);
             if (upper || lower)
                 lids.push_back({upper.value_or(lower.value_or(0)), lower.value_or(upper.value_or(0)), eyeball.centre});

@@ -69,7 +69,8 @@ struct Skin {
     double max_error = 0;               ///< measured with, and the largest such distance, in the mesh's unit
 };
 
-/// The lid points of one eye, which slide over its eyeball: see `displacements`.
+/// Two lid points of one eye, on the margins or on the borders of the lids, which slide over its eyeball: see
+/// `displacements`.
 struct LidsOverEye {
     std::size_t upper = 0, lower = 0;  ///< rig points; the same one where the face has only one of them
     Vec3 centre;                       ///< of the eyeball
