@@ -12,6 +12,7 @@
 #include "mien/io/fba.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
+#include "mien/io/sequence.hpp"
 #include "mien/measured_point.hpp"
 #include "mien/mesh_sequence.hpp"
 #include "mien/scene.hpp"
@@ -28,22 +29,16 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// others.
 Scene read_scene(const std::filesystem::path& path);
 
-/// How an animated head is read.
-struct SequenceOptions {
-    std::filesystem::path head;  ///< the neutral head of a point cache (.mdd .pc2), which holds positions alone
-    /// Rows per second, above 0; 0: the rows of the file where it has some (keys of its animation that lie dense, the
-    /// times of an .mdd), else 30. Needed for a folder and for an .mdd without times.
-    double rate = 0;
-    std::string animation;  ///< by name, or by number from 0; empty: the first
-};
-
 /// Reads an animated head by its extension: .glb .gltf .fbx, .mdd and .pc2 with a head, or a folder of OBJ or PLY
-/// files, one a row in the natural order of their names ("frame_9" before "frame_10"). Rows of a cache or a folder are
-/// read when they are asked for, so its files have to stay. Times start at 0.
+/// files, one a row in the natural order of their names ("frame_9" before "frame_10"). What is read from glTF and FBX
+/// is worked out when a row is asked for, positions of caches and folders are kept in memory.
 ///
-/// Throws Error whose sentence starts with the file's name; for a file that does not move, and for frames whose
-/// vertices or faces differ from those of the first. `positions` throws it too, when a file has changed meanwhile.
+/// Throws Error whose sentence starts with the file's name: as the parsers of mien/io/sequence.hpp do, and for a folder
+/// whose files differ in their vertices or faces.
 MeshSequence read_sequence(const std::filesystem::path& path, const SequenceOptions& options = {});
+
+/// What a file of animated heads holds (.glb .gltf .fbx), one entry per animation; none where nothing moves.
+std::vector<Animation> read_animations(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv .c3d.
 Take read_take(const std::filesystem::path& path);
