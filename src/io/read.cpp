@@ -21,6 +21,7 @@
 #include "mien/error.hpp"
 #include "mien/io/c3d.hpp"
 #include "mien/io/fap_text.hpp"
+#include "mien/io/fdp_json.hpp"
 #include "mien/io/fit.hpp"
 #include "mien/io/marker_map.hpp"
 #include "mien/io/measured_points.hpp"
@@ -251,6 +252,14 @@ Face read_face(const fs::path& head, const fs::path& points) {
 std::vector<Rename> read_marker_map(const fs::path& path) {
     if (!has_extension(path, ".csv") && !has_extension(path, ".json")) unknown_extension(path, ".csv or .json");
     return parsed(path, parse_marker_map);
+}
+
+Fdp read_fdp(const fs::path& path, const FdpTextOptions& options) {
+    if (has_extension(path, ".json")) return parsed(path, parse_fdp_json);
+    for (const std::string_view extension : {".fat", ".bt", ".fdp", ".fapu"})
+        if (has_extension(path, extension))
+            return parsed(path, [&](std::span<const std::byte> bytes) { return parse_fdp_text(bytes, options); });
+    unknown_extension(path, ".fat, .bt, .fdp, .fapu or .json");
 }
 
 RigFile read_rig(const fs::path& path) {

@@ -18,6 +18,8 @@
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
+#include "mien/io/fdp_json.hpp"
+#include "mien/io/fdp_text.hpp"
 #include "mien/io/point_cache.hpp"
 #include "mien/io/take_csv.hpp"
 #include "mien/io/trc.hpp"
@@ -144,6 +146,19 @@ void write(const Take& take, const fs::path& path, const WriteOptions& options) 
     if (has_extension(path, ".csv")) return write_file(path, as_bytes(format_take_csv(take)), options);
     if (has_extension(path, ".trc")) return write_file(path, as_bytes(format_trc(take)), options);
     unknown_extension(path, ".csv or .trc");
+}
+
+void write(const Fdp& fdp, const fs::path& path, const WriteOptions& options) {
+    if (has_extension(path, ".json")) return write_file(path, as_bytes(format_fdp_json(fdp)), options);
+    if (has_extension(path, ".fat") || has_extension(path, ".bt"))
+        return write_file(path, as_bytes(format_fdp_text(fdp)), options);
+    const bool points = has_extension(path, ".fdp");
+    if (!points && !has_extension(path, ".fapu")) unknown_extension(path, ".fat, .bt, .fdp, .fapu or .json");
+    Fdp part;
+    part.fapu = fdp.fapu;
+    part.mesh.unit = fdp.mesh.unit;
+    if (points) part.points = fdp.points;
+    write_file(path, as_bytes(format_fdp_text(part)), options);
 }
 
 void write(const MeshSequence& sequence, const fs::path& path, const WriteOptions& options) {

@@ -10,6 +10,7 @@
 #include "mien/face.hpp"
 #include "mien/fap_interpolation.hpp"
 #include "mien/io/fba.hpp"
+#include "mien/io/fdp_text.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
 #include "mien/io/sequence.hpp"
@@ -60,6 +61,9 @@ Face read_face(const std::filesystem::path& head, const std::filesystem::path& p
 
 /// Reads a marker map for `rename_points`: .csv or .json.
 std::vector<Rename> read_marker_map(const std::filesystem::path& path);
+
+/// Reads a face definition by its extension: .fat .bt .fdp .fapu (BIFS text) .json. The options are for BIFS text.
+Fdp read_fdp(const std::filesystem::path& path, const FdpTextOptions& options = {});
 
 /// Reads a rig file written by mien.
 RigFile read_rig(const std::filesystem::path& path);
