@@ -6,43 +6,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mien/algorithms/replay_error.hpp"
 #include "mien/error.hpp"
 
 namespace mien {
 
-namespace {
-
-std::size_t nearest_row(const std::vector<double>& times, double time) {
-    const auto after = std::lower_bound(times.begin(), times.end(), time);
-    if (after == times.begin()) return 0;
-    if (after == times.end()) return times.size() - 1;
-    const auto before = after - 1;
-    return static_cast<std::size_t>((*after - time < time - *before ? after : before) - times.begin());
-}
-
-}  // namespace
-
-FapColumns fap_columns(const MeshSequence& sequence, const FapStream& stream, std::span<const int> transforms) {
+FapColumns fap_columns(const MeshSequence& sequence, const FapStream& stream, std::span<const int> left_out) {
     FapColumns columns;
-    std::vector<const FapFrame*> frames;
-    if (sequence.times.empty()) throw Error("animation table: expected an animation with rows, found none");
-    for (const FapFrame& frame : stream.frames) {
-        const double time = sequence.times.front() + frame.number / stream.rate;
-        if (time > sequence.times.back() + 0.5 / stream.rate) break;
-        frames.push_back(&frame);
-        columns.rows.push_back(nearest_row(sequence.times, time));
-    }
+    std::vector<double> times;
+    for (const FapFrame& frame : stream.frames) times.push_back(frame.number / stream.rate);
+    columns.rows = rows_of_frames(sequence, times);
+    const std::span<const FapFrame> frames = std::span(stream.frames).first(columns.rows.size());
     if (frames.empty()) throw Error("animation table: expected frames of the animation, found none");
     for (int fap = 3; fap <= 68; ++fap) {
-        if (std::find(transforms.begin(), transforms.end(), fap) != transforms.end()) continue;
-        if (std::any_of(frames.begin(), frames.end(), [&](const FapFrame* f) { return f->value[fap_index(fap)] != 0; }))
+        if (std::find(left_out.begin(), left_out.end(), fap) != left_out.end()) continue;
+        if (std::any_of(frames.begin(), frames.end(), [&](const FapFrame& f) { return f.value[fap_index(fap)] != 0; }))
             columns.faps.push_back(fap);
     }
     columns.values.resize(static_cast<Eigen::Index>(frames.size()), static_cast<Eigen::Index>(columns.faps.size()));
     for (std::size_t r = 0; r < frames.size(); ++r)
         for (std::size_t k = 0; k < columns.faps.size(); ++k)
             columns.values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)) =
-                frames[r]->value[fap_index(columns.faps[k])];
+                frames[r].value[fap_index(columns.faps[k])];
     return columns;
 }
 

@@ -21,9 +21,8 @@ struct FapColumns {
     Eigen::MatrixXd values;         ///< frames x columns, FAP units
 };
 
-/// The nearest row of each frame; frames after the last row by more than half a frame are left out. Throws Error where
-/// none is left. Parameters in `transforms` have no column.
-FapColumns fap_columns(const MeshSequence& sequence, const FapStream& stream, std::span<const int> transforms);
+/// The rows are those of `rows_of_frames`. Throws Error where there is none. Parameters in `left_out` have no column.
+FapColumns fap_columns(const MeshSequence& sequence, const FapStream& stream, std::span<const int> left_out);
 
 /// How far the value passes through [low, high] on its way from 0. Over borders that hold 0 the pieces add up to it;
 /// the outermost go on for ever.

@@ -22,11 +22,14 @@
 
 namespace mien {
 
-double tune[8] = {1e-5, 30, 0.25, 1, 1, 0, 0, 0};
-
 namespace {
 
 constexpr double infinite = 1e12;
+
+// The pull: of a share near the parameter's point, how much more of one at `near` eye distances from it, and where it
+// grows no more. On real heads larger pulls cost accuracy and smaller ones let shares wander
+// (docs/papers/laftsidis.md).
+constexpr double pull_here = 1e-6, pull_away = 30, near = 0.25, farthest = 8;
 
 using Index = Eigen::Index;
 
@@ -189,33 +192,41 @@ Eigen::MatrixXd solve(const Model& model, const Eigen::MatrixXd& right, const Ei
 
 }  // namespace
 
+namespace {
+
+Eigen::VectorXd pull_of(const Expectation& expectation, Index place) {
+    const Eigen::ArrayXd away = (expectation.distances.col(place).array() / near).min(farthest);
+    return pull_here * (1 + pull_away * away.square());
+}
+
+// Shares that move the place too little to be seen are dropped, and the others fitted again.
+void share_place(const Model& model, const Expectation& expectation, const Eigen::VectorXd& peaks, Index place,
+                 Eigen::MatrixXd& result) {
+    constexpr int rounds = 4;
+    const Eigen::MatrixXd right = model.right.middleCols(3 * place, 3);
+    const Eigen::MatrixXd expected = expectation.fields.middleCols(3 * place, 3);
+    const Eigen::VectorXd pull = pull_of(expectation, place);
+    std::vector<Index> kept(static_cast<std::size_t>(model.gram.rows()));
+    std::iota(kept.begin(), kept.end(), Index{0});
+    Eigen::MatrixXd w;
+    for (int round = 0; round < rounds && !kept.empty(); ++round) {
+        w = solve(model, right, expected, pull, kept);
+        std::vector<Index> still;
+        for (std::size_t i = 0; i < kept.size(); ++i)
+            if (w.row(static_cast<Index>(i)).norm() * peaks[kept[i]] >= expectation.least) still.push_back(kept[i]);
+        if (still.size() == kept.size() || round + 1 == rounds) break;
+        kept = std::move(still);
+    }
+    for (std::size_t i = 0; i < kept.size(); ++i) result.block(kept[i], 3 * place, 1, 3) = w.row(static_cast<Index>(i));
+}
+
+}  // namespace
+
 Eigen::MatrixXd shares(const Model& model, const Expectation& expectation) {
-    const Index intervals = model.gram.rows(), places = model.right.cols() / 3;
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(intervals, 3 * places);
+    const Index places = model.right.cols() / 3;
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(model.gram.rows(), 3 * places);
     const Eigen::VectorXd peaks = model.course.cwiseAbs().colwise().maxCoeff().transpose();
-    tbb::parallel_for(Index{0}, places, [&](Index p) {
-        const Eigen::MatrixXd right = model.right.middleCols(3 * p, 3);
-        const Eigen::MatrixXd expected = tune[4] * expectation.fields.middleCols(3 * p, 3);
-        Eigen::VectorXd pull(intervals);
-        for (Index k = 0; k < intervals; ++k) {
-            const double away = std::min(expectation.distances(k, p) / tune[2], 8.0);
-            pull[k] = tune[0] * (1 + tune[1] * away * away);
-        }
-        std::vector<Index> kept(static_cast<std::size_t>(intervals));
-        std::iota(kept.begin(), kept.end(), Index{0});
-        Eigen::MatrixXd w = solve(model, right, expected, pull, kept);
-        for (int round = 0; round < 3; ++round) {
-            std::vector<Index> still;
-            for (std::size_t i = 0; i < kept.size(); ++i)
-                if (w.row(static_cast<Index>(i)).norm() * peaks[kept[i]] >= tune[3] * expectation.least)
-                    still.push_back(kept[i]);
-            if (still.size() == kept.size()) break;
-            kept = std::move(still);
-            if (kept.empty()) break;
-            w = solve(model, right, expected, pull, kept);
-        }
-        for (std::size_t i = 0; i < kept.size(); ++i) result.block(kept[i], 3 * p, 1, 3) = w.row(static_cast<Index>(i));
-    });
+    tbb::parallel_for(Index{0}, places, [&](Index p) { share_place(model, expectation, peaks, p, result); });
     return result;
 }
 

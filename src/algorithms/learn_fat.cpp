@@ -31,7 +31,7 @@ namespace mien {
 namespace {
 
 constexpr double moves_at_all = 1e-6;  // of the eye distance
-constexpr double seen = 5e-4;          // of the eye distance: shares that move a vertex less are dropped
+constexpr double seen = 1.5e-3;        // of the eye distance: shares that move a vertex less are dropped
 
 using Index = Eigen::Index;
 
@@ -203,6 +203,17 @@ std::vector<int> transform_faps(const std::vector<MovingEyeball>& eyeballs) {
     return numbers;
 }
 
+// Parameters that never move their point so far that it could be seen: rounding, and skin that is not quite still.
+void add_unseen_faps(const FapStream& stream, const Fapu& fapu, double scale, std::vector<int>& numbers) {
+    constexpr double least = 0.002;  // of the eye distance
+    for (int fap = 3; fap <= 68; ++fap) {
+        if (fap_info(fap).unit == FapUnit::angle) continue;
+        std::int32_t largest = 0;
+        for (const FapFrame& frame : stream.frames) largest = std::max(largest, std::abs(frame.value[fap_index(fap)]));
+        if (largest * unit_length(fapu, fap_info(fap).unit) < least * scale) numbers.push_back(fap);
+    }
+}
+
 FaceDefTransform turn(std::uint32_t node, const Vec3& axis) {
     return {node, TransformField::rotation, axis, unit_length({}, FapUnit::angle), {}, {}};
 }
@@ -291,7 +302,9 @@ LearntFat told(const FapColumns& columns, const Ground& ground, const Model& mod
 LearntFat learn_fat(const UprightSequence& upright, const Fapu& fapu, const FapStream& stream, Reading reading) {
     const bool as_written = reading == Reading::paper;
     const std::vector<MovingEyeball> eyeballs = as_written ? std::vector<MovingEyeball>() : moving_eyeballs(upright);
-    const FapColumns columns = fap_columns(upright.sequence, stream, transform_faps(eyeballs));
+    std::vector<int> left_out = transform_faps(eyeballs);
+    if (!as_written) add_unseen_faps(stream, fapu, face_scale({upright.sequence.mesh, upright.points}), left_out);
+    const FapColumns columns = fap_columns(upright.sequence, stream, left_out);
     const Ground ground = prepare(upright, columns, eyeballs);
     Eigen::VectorXd motion;
     const Model model = fit_model(upright.sequence, columns, ground.vertices, motion);

@@ -37,6 +37,17 @@ struct Frames {
 /// but such frames.
 void write_folder(const Frames& frames, const std::filesystem::path& path, const WriteOptions& options = {});
 
+/// A file of a folder.
+struct NamedFile {
+    std::string name;  ///< without any folder
+    std::string bytes;
+};
+
+/// Writes a folder that holds these files and nothing else, as a whole or not at all. A folder is replaced only when it
+/// holds nothing but files of these names.
+void write_folder(std::span<const NamedFile> files, const std::filesystem::path& path,
+                  const WriteOptions& options = {});
+
 /// Writes a take by its extension: .csv .trc.
 void write(const Take& take, const std::filesystem::path& path, const WriteOptions& options = {});
 
