@@ -30,7 +30,8 @@ if(TARGET mien_cli)
   set_tests_properties(cli.promises cli.examples cli.face_animation cli.pictures cli.written_files_are_valid PROPERTIES ENVIRONMENT ${program})
   script_test(cli.evaluate ${CMAKE_CURRENT_SOURCE_DIR}/cli/evaluate_test.py)
   script_test(cli.shapes ${CMAKE_CURRENT_SOURCE_DIR}/cli/shapes_test.py)
-  set_tests_properties(cli.evaluate cli.shapes PROPERTIES ENVIRONMENT ${program})
+  script_test(cli.extract ${CMAKE_CURRENT_SOURCE_DIR}/cli/extract_test.py)
+  set_tests_properties(cli.evaluate cli.shapes cli.extract PROPERTIES ENVIRONMENT ${program})
 
   # The README's fragment: compiled and linked as it stands, and run beside the samples it names.
   set(fragment ${CMAKE_CURRENT_BINARY_DIR}/readme)
