@@ -207,12 +207,12 @@ MeshSequence parse_pc2(std::vector<std::byte> bytes, Mesh head, double rate) {
         cache.fail(0, "\"POINTCACHE2\"", shown(as_text(cache.bytes).substr(0, magic.size())));
     if (cache.word(version_at) != 1) cache.fail(version_at, "version 1", std::to_string(cache.word(version_at)));
     const std::uint32_t rows = count_at(cache, rows_at, "row"), vertices = count_at(cache, vertices_at, "vertex");
-    const double step = cache.number(step_at);
-    if (!std::isfinite(step) || step <= 0)
+    const double step = cache.number(step_at), rows_per_second = rate / step;
+    if (!(step > 0) || !std::isfinite(rows_per_second) || (rate > 0 && !(rows_per_second > 0)))
         cache.fail(step_at, "a number of frames per row above 0", fmt::format("{}", step));
     check_counts(cache, rows, vertices, vertices_at, head);
     if (rate == 0) throw Error("pc2: it counts in frames; expected the frames per second to be given, found none");
-    return rows_of(std::move(cache), std::move(head), even_times(rows, rate / step));
+    return rows_of(std::move(cache), std::move(head), even_times(rows, rows_per_second));
 }
 
 namespace {
