@@ -20,9 +20,9 @@
 
 namespace mien {
 
-/// Reads a head by its extension: .glb .gltf .obj .off .ply. Throws Error whose sentence starts with the file's name;
-/// Kind::access when the file cannot be read. A mesh whose faces all lie on a point or a line is refused. A .gltf may
-/// name files in its own folder and below, nothing else; a picture that is not there is named in `Mesh::left_out`.
+/// Reads a head by its extension: .glb .gltf .fbx .obj .off .ply. Throws Error whose sentence starts with the file's
+/// name; Kind::access when the file cannot be read. A mesh whose faces all lie on a point or a line is refused. A .gltf
+/// may name files in its own folder and below, nothing else; a picture that is not there is named in `Mesh::left_out`.
 Mesh read_mesh(const std::filesystem::path& path);
 
 /// Reads what a file shows by its extension, as `read_mesh` does: `parse_scene` for .glb and .gltf, `scene_of` for the
