@@ -147,7 +147,7 @@ struct Axes {
 Axes axes_of(const aiScene& scene) {
     constexpr std::array names{"CoordAxis", "UpAxis", "FrontAxis"};
     Axes given;
-    double unit = 1;
+    float unit = 1;
     if (scene.mMetaData == nullptr) return given;
     std::set<int> different;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -159,7 +159,8 @@ Axes axes_of(const aiScene& scene) {
         if (axis >= 0 && axis < 3) different.insert(axis);
     }
     if (different.size() != 3) given = {};
-    if (scene.mMetaData->Get("UnitScaleFactor", unit) && std::isfinite(unit) && unit > 0) given.metres = 0.01 * unit;
+    if (scene.mMetaData->Get("UnitScaleFactor", unit) && std::isfinite(unit) && unit > 0)
+        given.metres = 0.01 * double{unit};
     return given;
 }
 

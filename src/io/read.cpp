@@ -28,7 +28,6 @@
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
 #include "mien/io/ply.hpp"
-#include "mien/io/point_cache.hpp"
 #include "mien/io/scene.hpp"
 #include "mien/io/take_csv.hpp"
 #include "mien/io/trc.hpp"
@@ -229,6 +228,14 @@ std::vector<Animation> read_animations(const fs::path& path) {
     return parsed(path, [&](std::span<const std::byte> bytes) {
         return is_fbx(path) ? parse_gltf_animations(convert_fbx(bytes), no_fetch)
                             : parse_gltf_animations(bytes, beside(path));
+    });
+}
+
+PointCacheContent read_cache_content(const fs::path& path) {
+    const bool is_mdd = has_extension(path, ".mdd");
+    if (!is_mdd && !has_extension(path, ".pc2")) unknown_extension(path, ".mdd or .pc2");
+    return parsed(path, [&](std::span<const std::byte> bytes) {
+        return is_mdd ? check_mdd({bytes.begin(), bytes.end()}) : check_pc2({bytes.begin(), bytes.end()});
     });
 }
 

@@ -114,7 +114,8 @@ TEST(PointCache, times_are_those_of_the_mdd_or_of_the_rate) {
 
 TEST(PointCache, what_is_wrong_is_told_with_its_byte) {
     const auto mdd_refusal = [](const std::string& text) { return hostile::refusal(read_mdd, text); };
-    EXPECT_EQ(mdd_refusal(with(mdd(), 4, "\0\0\0\4"s)), "mdd byte 4: expected 3 vertices as the head has, found 4");
+    EXPECT_EQ(mdd_refusal(with(mdd(), 4, "\0\0\0\6\0\0\0\0\x3f"s).substr(0, 16) + std::string(144, '\0')),
+              "mdd byte 4: expected 3 vertices as the head has, found 6");
     EXPECT_EQ(mdd_refusal(with(mdd(), 0, "\xff"s)), "mdd byte 0: expected one row or more, found -16777214");
     EXPECT_EQ(mdd_refusal(with(mdd(), 3, "\3"s)),
               "mdd byte 88: expected the end after 3 rows of 3 vertices from byte 20 on, found a file of 88 bytes");
@@ -134,6 +135,19 @@ TEST(PointCache, what_is_wrong_is_told_with_its_byte) {
     EXPECT_THAT(pc2_refusal(with(pc2(), 24, "\xff\xff\x7f\xff"s)), HasSubstr("frames per row above 0, found -"));
     EXPECT_THAT(pc2_refusal(with(pc2(), 24, "\0\0\xc0\x7f"s)), HasSubstr("frames per row above 0, found nan"));
     EXPECT_THAT(pc2_refusal(pc2().substr(0, 50)), HasSubstr("found a file of 50 bytes"));
+}
+
+TEST(PointCache, a_cache_says_what_it_holds_without_a_head) {
+    const auto bytes_of = [](const std::string& text) {
+        return std::vector<std::byte>(as_bytes(text).begin(), as_bytes(text).end());
+    };
+    const PointCacheContent of_mdd = check_mdd(bytes_of(mdd())), of_pc2 = check_pc2(bytes_of(pc2()));
+    EXPECT_EQ(of_mdd.rows, 2U);
+    EXPECT_EQ(of_pc2.rows, 2U);
+    EXPECT_EQ(of_mdd.vertices, 3U);
+    EXPECT_EQ(of_pc2.vertices, 3U);
+    EXPECT_THAT(of_mdd.times, ElementsAre(0, 0.5));
+    EXPECT_THAT(of_pc2.times, testing::IsEmpty());
 }
 
 TEST(PointCache, a_rate_is_needed_where_the_file_has_none_and_has_to_be_one) {

@@ -11,6 +11,7 @@
 #include "mien/fap_interpolation.hpp"
 #include "mien/io/fba.hpp"
 #include "mien/io/gltf.hpp"
+#include "mien/io/point_cache.hpp"
 #include "mien/io/points.hpp"
 #include "mien/io/sequence.hpp"
 #include "mien/measured_point.hpp"
@@ -39,6 +40,9 @@ MeshSequence read_sequence(const std::filesystem::path& path, const SequenceOpti
 
 /// What a file of animated heads holds (.glb .gltf .fbx), one entry per animation; none where nothing moves.
 std::vector<Animation> read_animations(const std::filesystem::path& path);
+
+/// What a point cache holds (.mdd .pc2).
+PointCacheContent read_cache_content(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv .c3d.
 Take read_take(const std::filesystem::path& path);
