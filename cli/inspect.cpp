@@ -121,7 +121,7 @@ void inspect(Call& call, const Inspect& flags) {
         inspect_point_cache(flags.file, report);
         return;
     }
-    const bool is_folder = std::filesystem::is_directory(flags.file);
+    const bool is_folder = flags.file.extension().empty() && std::filesystem::is_directory(flags.file);
     const Mesh mesh = is_folder ? inspect_frames(flags.file, report) : read_mesh(flags.file);
     inspect_mesh(mesh, report);
     if (!is_folder) inspect_animations(flags.file, report);
