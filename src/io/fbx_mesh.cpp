@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -65,28 +66,42 @@ struct Influence {
 };
 using Influences = std::vector<std::vector<Influence>>;  // per vertex, the heaviest first
 
-// Vertices on no bone hang on the node that shows the mesh, which is the joint behind all bones.
-Influences influences_of(const aiMesh& mesh) {
-    Influences all(mesh.mNumBones > 0 ? mesh.mNumVertices : 0);
-    constexpr std::size_t most_bones = 65535;
-    if (mesh.mNumBones > most_bones)
-        fail_in(mesh, fmt::format("at most {} bones", most_bones), std::to_string(mesh.mNumBones));
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-        const aiBone& bone = *mesh.mBones[b];
-        for (unsigned w = 0; w < bone.mNumWeights; ++w) {
-            const aiVertexWeight& given = bone.mWeights[w];
-            if (given.mVertexId >= mesh.mNumVertices)
-                fail_in(mesh, fmt::format("vertices below {} in bone {}", mesh.mNumVertices, shown(bone.mName.C_Str())),
-                        std::to_string(given.mVertexId));
-            if (std::isfinite(given.mWeight) && given.mWeight > 0)
-                all[given.mVertexId].push_back({static_cast<std::uint16_t>(b), given.mWeight});
-        }
+// The bones of all parts, each once by its name.
+using Bones = std::vector<const aiBone*>;
+Bones bones_of(const FbxParts& parts) {
+    Bones bones;
+    std::unordered_set<std::string> names;
+    for (const aiMesh* part : parts)
+        for (unsigned b = 0; b < part->mNumBones; ++b)
+            if (names.insert(part->mBones[b]->mName.C_Str()).second) bones.push_back(part->mBones[b]);
+    constexpr std::size_t most = 65535;
+    if (bones.size() > most) fail_in(*parts[0], fmt::format("at most {} bones", most), std::to_string(bones.size()));
+    return bones;
+}
+
+void add_influences(const aiMesh& mesh, const aiBone& bone, std::size_t joint, Influences& all) {
+    for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+        const aiVertexWeight& given = bone.mWeights[w];
+        if (given.mVertexId >= mesh.mNumVertices)
+            fail_in(mesh, fmt::format("vertices below {} in bone {}", mesh.mNumVertices, shown(bone.mName.C_Str())),
+                    std::to_string(given.mVertexId));
+        if (std::isfinite(given.mWeight) && given.mWeight > 0)
+            all[given.mVertexId].push_back({static_cast<std::uint16_t>(joint), given.mWeight});
     }
+}
+
+// Vertices on no bone hang on the node that shows the mesh, which is the joint behind all bones.
+Influences influences_of(const aiMesh& mesh, const Bones& bones) {
+    Influences all(bones.empty() ? 0 : mesh.mNumVertices);
+    std::unordered_map<std::string, std::size_t> joints;
+    for (const aiBone* bone : bones) joints.emplace(bone->mName.C_Str(), joints.size());
+    for (unsigned b = 0; b < mesh.mNumBones; ++b)
+        add_influences(mesh, *mesh.mBones[b], joints.at(mesh.mBones[b]->mName.C_Str()), all);
     for (std::vector<Influence>& one : all) {
         std::stable_sort(one.begin(), one.end(),
                          [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
         if (one.size() > most_influences) one.resize(most_influences);
-        if (one.empty()) one.push_back({static_cast<std::uint16_t>(mesh.mNumBones), 1});
+        if (one.empty()) one.push_back({static_cast<std::uint16_t>(bones.size()), 1});
     }
     return all;
 }
@@ -195,35 +210,59 @@ void append_joints(GltfDocument& document, json& attributes, const Influences& i
     }
 }
 
-}  // namespace
+json targets_of(GltfDocument& document, const aiMesh& mesh, const Joined& kept) {
+    json targets = json::array();
+    for (unsigned t = 0; t < mesh.mNumAnimMeshes; ++t) {
+        json target;
+        target["POSITION"] = append_shape(document, mesh, *mesh.mAnimMeshes[t], kept);
+        targets.push_back(std::move(target));
+    }
+    return targets;
+}
 
-std::optional<std::size_t> append_fbx_mesh(GltfDocument& document, const aiMesh& mesh, std::size_t material) {
+// Nothing where the part has no triangles.
+std::optional<json> primitive_of(GltfDocument& document, const aiMesh& mesh, const Bones& bones) {
     check_shapes(mesh);
     const Attributes has = attributes_of(mesh);
-    const Influences influences = influences_of(mesh);
+    const Influences influences = influences_of(mesh, bones);
     const Joined kept = joined(mesh, has, influences);
     if (kept.corners.empty()) return std::nullopt;
-    json primitive = {{"material", material}};
+    json primitive;
     json& attributes = primitive["attributes"];
     attributes["POSITION"] = append_positions(document, mesh, kept);
     if (has.normals) attributes["NORMAL"] = append_normals(document, mesh, kept);
     if (has.uvs) attributes["TEXCOORD_0"] = append_uvs(document, mesh, kept);
     if (!influences.empty()) append_joints(document, attributes, influences, kept);
     primitive["indices"] = append_indices(document, kept.corners);
-    json value, names = json::array();
-    value["name"] = mesh.mName.C_Str();
-    for (unsigned t = 0; t < mesh.mNumAnimMeshes; ++t) {
-        json target;
-        target["POSITION"] = append_shape(document, mesh, *mesh.mAnimMeshes[t], kept);
-        primitive["targets"].push_back(std::move(target));
-        names.push_back(mesh.mAnimMeshes[t]->mName.C_Str());
+    if (mesh.mNumAnimMeshes > 0) primitive["targets"] = targets_of(document, mesh, kept);
+    return primitive;
+}
+
+}  // namespace
+
+std::optional<std::size_t> append_fbx_mesh(GltfDocument& document, const FbxParts& parts, std::size_t materials) {
+    const Bones bones = bones_of(parts);
+    json primitives = json::array(), names = json::array();
+    for (const aiMesh* part : parts) {
+        std::optional<json> primitive = primitive_of(document, *part, bones);
+        if (!primitive) continue;
+        (*primitive)["material"] = std::min<std::size_t>(part->mMaterialIndex, materials);
+        primitives.push_back(std::move(*primitive));
     }
+    if (primitives.empty()) return std::nullopt;
+    json value;
+    value["name"] = parts[0]->mName.C_Str();
+    value["primitives"] = std::move(primitives);
+    for (unsigned t = 0; t < parts[0]->mNumAnimMeshes; ++t) names.push_back(parts[0]->mAnimMeshes[t]->mName.C_Str());
     if (!names.empty()) value["extras"]["targetNames"] = std::move(names);
-    value["primitives"].push_back(std::move(primitive));
     return append_object(document, "meshes", std::move(value));
 }
 
-std::size_t append_fbx_skin(GltfDocument& document, const aiMesh& mesh, std::size_t node,
+bool has_fbx_bones(const FbxParts& parts) {
+    return std::any_of(parts.begin(), parts.end(), [](const aiMesh* part) { return part->mNumBones > 0; });
+}
+
+std::size_t append_fbx_skin(GltfDocument& document, const FbxParts& parts, std::size_t node,
                             const std::function<std::optional<std::size_t>(const std::string& bone)>& node_of) {
     json joints = json::array();
     std::vector<float> binds;
@@ -232,14 +271,13 @@ std::size_t append_fbx_skin(GltfDocument& document, const aiMesh& mesh, std::siz
         for (unsigned column = 0; column < 4; ++column)
             for (unsigned row = 0; row < 4; ++row) binds.push_back(bind[row][column]);
     };
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-        const aiBone& bone = *mesh.mBones[b];
-        const auto joint = node_of(bone.mName.C_Str());
-        add(joint.value_or(node), joint ? bone.mOffsetMatrix : aiMatrix4x4());
+    for (const aiBone* bone : bones_of(parts)) {
+        const auto joint = node_of(bone->mName.C_Str());
+        add(joint.value_or(node), joint ? bone->mOffsetMatrix : aiMatrix4x4());
     }
     add(node, aiMatrix4x4());
     if (!std::all_of(binds.begin(), binds.end(), [](float x) { return std::isfinite(x); }))
-        fail_in(mesh, "finite matrices of its bones", "one that is not");
+        fail_in(*parts[0], "finite matrices of its bones", "one that is not");
     const std::size_t matrices = append_floats(document, binds, Elements::mat4, BufferTarget::none);
     return append_object(document, "skins", {{"joints", std::move(joints)}, {"inverseBindMatrices", matrices}});
 }

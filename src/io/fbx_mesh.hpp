@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/glb.hpp"
 
@@ -16,13 +17,20 @@ struct aiMesh;
 
 namespace mien {
 
-/// Appends a mesh with its shapes, of the material of this number; nothing where it has no triangles. The joints that
-/// its vertices name are its bones in their order, and behind them the node that shows it, for what hangs on no bone.
-/// Throws Error naming the mesh, expected and found.
-std::optional<std::size_t> append_fbx_mesh(GltfDocument& document, const aiMesh& mesh, std::size_t material);
+/// Meshes of Assimp that are one mesh of the file, which it takes apart by materials: equal names, equally many shapes.
+using FbxParts = std::vector<const aiMesh*>;
+
+/// Appends them as one mesh with its shapes, a primitive each; nothing where they have no triangles. `materials`: how
+/// many the scene has; a part that names none of them gets the one behind. The joints that vertices name are the bones
+/// in their order, and behind them the node that shows the mesh, for what hangs on no bone. Throws Error naming the
+/// mesh, expected and found.
+std::optional<std::size_t> append_fbx_mesh(GltfDocument& document, const FbxParts& parts, std::size_t materials);
+
+/// Whether a skin binds any of them.
+bool has_fbx_bones(const FbxParts& parts);
 
 /// Appends the skin of a mesh that this node of the document shows. `node_of`: the node that a bone is called by.
-std::size_t append_fbx_skin(GltfDocument& document, const aiMesh& mesh, std::size_t node,
+std::size_t append_fbx_skin(GltfDocument& document, const FbxParts& parts, std::size_t node,
                             const std::function<std::optional<std::size_t>(const std::string& bone)>& node_of);
 
 }  // namespace mien

@@ -33,20 +33,20 @@ namespace {
 
 using nlohmann::json;
 
-// A mesh of the scene on a node of the document.
+// What is one mesh of the document on a node of it.
 struct Shown {
     std::size_t node = 0;
-    const aiMesh* mesh = nullptr;
+    FbxParts parts;
 };
 
 // The document while it grows.
 struct Growing {
     const aiScene& scene;
     GltfDocument document;
-    std::map<std::string, std::size_t> numbers;       // of nodes by name, the first of each
-    std::map<std::string, std::vector<Shown>> shown;  // by the name of their node
-    std::vector<std::optional<std::size_t>> meshes;   // of the document, one per mesh of the scene
-    std::set<std::string> moving;                     // names of nodes that an animation moves
+    std::map<std::string, std::size_t> numbers;             // of nodes by name, the first of each
+    std::map<std::string, std::vector<Shown>> shown;        // by the name of their node
+    std::map<FbxParts, std::optional<std::size_t>> meshes;  // of the document
+    std::set<std::string> moving;                           // names of nodes that an animation moves
 };
 
 bool is_finite(const aiMatrix4x4& m) {
@@ -85,14 +85,33 @@ void add_transform(const Growing& out, const aiNode& node, json& value) {
     value["scale"] = numbers_of(scale);
 }
 
-std::optional<std::size_t> mesh_of(Growing& out, std::size_t number) {
-    return number < out.meshes.size() ? out.meshes[number] : std::nullopt;
+// The meshes of a node, those together that Assimp took apart by their materials.
+std::vector<FbxParts> meshes_on(const Growing& out, const aiNode& node) {
+    std::vector<FbxParts> all;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+        if (node.mMeshes[m] >= out.scene.mNumMeshes) continue;
+        const aiMesh* mesh = out.scene.mMeshes[node.mMeshes[m]];
+        const bool goes_on = !all.empty() && all.back()[0]->mName == mesh->mName &&
+                             all.back()[0]->mNumAnimMeshes == mesh->mNumAnimMeshes;
+        if (!goes_on) all.emplace_back();
+        all.back().push_back(mesh);
+    }
+    return all;
+}
+
+// The number of a mesh in the document, which several nodes may show.
+std::optional<std::size_t> mesh_of(Growing& out, const FbxParts& parts) {
+    const auto known = out.meshes.find(parts);
+    if (known != out.meshes.end()) return known->second;
+    const auto number = append_fbx_mesh(out.document, parts, out.scene.mNumMaterials);
+    out.meshes.emplace(parts, number);
+    return number;
 }
 
 // The first mesh hangs on the node itself, others on children of their own.
 void add_shown(Growing& out, const aiNode& node, std::size_t number) {
-    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
-        const auto mesh = mesh_of(out, node.mMeshes[m]);
+    for (FbxParts& parts : meshes_on(out, node)) {
+        const auto mesh = mesh_of(out, parts);
         if (!mesh) continue;
         std::size_t place = number;
         if (out.document.json["nodes"][number].contains("mesh")) {
@@ -100,7 +119,7 @@ void add_shown(Growing& out, const aiNode& node, std::size_t number) {
             out.document.json["nodes"][number]["children"].push_back(place);
         }
         out.document.json["nodes"][place]["mesh"] = *mesh;
-        out.shown[node.mName.C_Str()].push_back({place, out.scene.mMeshes[node.mMeshes[m]]});
+        out.shown[node.mName.C_Str()].push_back({place, std::move(parts)});
     }
 }
 
@@ -131,9 +150,9 @@ std::optional<std::size_t> find_node(const Growing& out, const std::string& name
 void add_skins(Growing& out) {
     for (const auto& [name, list] : out.shown)
         for (const Shown& place : list)
-            if (place.mesh->mNumBones > 0)
+            if (has_fbx_bones(place.parts))
                 out.document.json["nodes"][place.node]["skin"] =
-                    append_fbx_skin(out.document, *place.mesh, place.node,
+                    append_fbx_skin(out.document, place.parts, place.node,
                                     [&](const std::string& bone) { return find_node(out, bone); });
 }
 
@@ -192,14 +211,6 @@ void add_material(GltfDocument& document, const aiMaterial* material) {
 void add_materials(Growing& out) {
     for (unsigned m = 0; m < out.scene.mNumMaterials; ++m) add_material(out.document, out.scene.mMaterials[m]);
     add_material(out.document, nullptr);
-}
-
-void add_meshes(Growing& out) {
-    for (unsigned m = 0; m < out.scene.mNumMeshes; ++m) {
-        const aiMesh& mesh = *out.scene.mMeshes[m];
-        out.meshes.push_back(
-            append_fbx_mesh(out.document, mesh, std::min(mesh.mMaterialIndex, out.scene.mNumMaterials)));
-    }
 }
 
 // An animation while it grows.
@@ -261,7 +272,7 @@ double weight_at(const ShapeKeys& keys, double time) {
 
 // Every shape has keys of its own, while a track of glTF has one value of each at all its keys.
 void add_shape_channel(Playing& playing, const aiMeshMorphAnim& moves, const Shown& place) {
-    std::vector<ShapeKeys> shapes(place.mesh->mNumAnimMeshes);
+    std::vector<ShapeKeys> shapes(place.parts[0]->mNumAnimMeshes);
     std::set<double> all;
     for (unsigned k = 0; k < moves.mNumKeys; ++k) {
         const aiMeshMorphKey& key = moves.mKeys[k];
@@ -314,7 +325,6 @@ GltfDocument document_of(const aiScene& scene) {
     out.document.json["asset"]["version"] = "2.0";
     find_moving(out);
     add_materials(out);
-    add_meshes(out);
     const std::size_t root = append_root(out.document, scene);
     add_nodes(out, root);
     add_skins(out);
