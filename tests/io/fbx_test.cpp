@@ -52,6 +52,31 @@ TEST_F(Fbx, corners_of_faces_are_joined_and_sizes_are_metres) {
     EXPECT_THAT(mesh.morph_targets[0].deltas, ElementsAre(Vec3f{0, 0, 0.5F}));
 }
 
+TEST_F(Fbx, a_mesh_of_two_materials_is_one_mesh_of_two_parts) {
+    Square square;
+    square.materials = true;
+    square.skinned = true;
+    const std::vector<std::byte> glb = converted(fbx(square));
+    const Mesh mesh = parse_gltf(glb, no_file);
+    ASSERT_EQ(mesh.parts.size(), 2U);
+    for (std::uint32_t p = 0; p < 2; ++p) {
+        EXPECT_EQ(mesh.parts[p].name, "face");
+        EXPECT_EQ(mesh.parts[p].mesh, 0U);
+        EXPECT_EQ(mesh.parts[p].primitive, p);
+        EXPECT_EQ(mesh.parts[p].vertex_count, 3U);
+    }
+    ASSERT_EQ(mesh.morph_targets.size(), 1U);
+    EXPECT_EQ(mesh.morph_targets[0].vertices.size(), 2U);
+    SequenceOptions options;
+    options.rate = 1;
+    const MeshSequence sequence = parse_gltf_sequence(glb, no_file, options);
+    std::vector<Vec3f> p(6);
+    sequence.positions(2, p);
+    const Vec3 of_bone{0, 2, 0.5}, of_node{3, 0, 0};
+    for (const std::size_t v : {2U, 4U}) EXPECT_LT(distance(to_double(p[v]), of_bone), 1e-6) << v;
+    for (const std::size_t v : {0U, 3U}) EXPECT_LT(distance(to_double(p[v]), of_node), 1e-6) << v;
+}
+
 TEST_F(Fbx, the_axes_and_the_unit_of_the_file_are_followed) {
     Square square;
     square.unit = 100;

@@ -20,6 +20,7 @@ struct Square {
     std::string clusters = "2,3";  ///< vertices that hang on the bone, with weight 1
     double unit = 1;               ///< centimetres
     bool skinned = false;
+    bool materials = false;  ///< two triangles, each of a material of its own
     bool animated = true;
 };
 
@@ -71,6 +72,32 @@ inline std::string skin_objects(const Square& square) {
                        square.clusters, bone);
 }
 
+/// One of two triangles each.
+inline std::string materials_layer() {
+    return R"(  LayerElementMaterial: 0 {
+   Version: 101
+   Name: ""
+   MappingInformationType: "ByPolygon"
+   ReferenceInformationType: "IndexToDirect"
+   Materials: *2 { a: 0,1 }
+  }
+  Layer: 0 {
+   Version: 100
+   LayerElement:  {
+    Type: "LayerElementMaterial"
+    TypedIndex: 0
+   }
+  }
+)";
+}
+
+inline std::string material_objects() {
+    std::string text;
+    for (const char* material : {"30, \"Material::red\"", "31, \"Material::blue\""})
+        text += fmt::format(" Material: {}, \"\" {{\n  Version: 102\n  ShadingModel: \"lambert\"\n }}\n", material);
+    return text;
+}
+
 /// A curve of two keys at 0 and 2 seconds.
 inline std::string curve(int number, double from, double to) {
     return fmt::format(R"( AnimationCurve: {}, "AnimCurve::", "" {{
@@ -106,6 +133,7 @@ inline std::string animation_objects(const Square& square) {
 inline std::string connections(const Square& square) {
     std::string text =
         "Connections:  {\n C: \"OO\",1,5\n C: \"OO\",5,0\n C: \"OO\",3,1\n C: \"OO\",4,3\n C: \"OO\",2,4\n";
+    if (square.materials) text += " C: \"OO\",30,5\n C: \"OO\",31,5\n";
     if (square.skinned) text += " C: \"OO\",20,0\n C: \"OO\",21,1\n C: \"OO\",22,21\n C: \"OO\",20,22\n";
     if (square.animated)
         text +=
@@ -121,10 +149,12 @@ inline std::string fbx(const Square& square = {}) {
     std::string text =
         "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: 7400\n}\n";
     text += settings(square) + "Definitions:  {\n Version: 100\n Count: 0\n}\nObjects:  {\n";
+    const std::string corners = square.materials ? "*6 { a: 0,1,-3,0,2,-4 }" : "*4 { a: " + square.corners + " }";
     text += fmt::format(
-        " Geometry: 1, \"Geometry::face\", \"Mesh\" {{\n  Vertices: *12 {{ a: {} }}\n  PolygonVertexIndex: *4 "
-        "{{ a: {} }}\n  GeometryVersion: 124\n }}\n",
-        square.vertices, square.corners);
+        " Geometry: 1, \"Geometry::face\", \"Mesh\" {{\n  Vertices: *12 {{ a: {} }}\n"
+        "  PolygonVertexIndex: {}\n  GeometryVersion: 124\n{} }}\n",
+        square.vertices, corners, square.materials ? materials_layer() : "");
+    if (square.materials) text += material_objects();
     text += " Model: 5, \"Model::head\", \"Mesh\" {\n  Version: 232\n }\n" + shape_objects();
     if (square.skinned) text += skin_objects(square);
     return text + animation_objects(square) + "}\n" + connections(square);
