@@ -111,6 +111,9 @@ TEST(PointCache, what_is_wrong_is_told_with_its_byte) {
     EXPECT_EQ(mdd_refusal(with(mdd(), 0, "\x7f\xff\xff\xff"s)),
               "mdd byte 88: expected the end after 2147483647 rows of 3 vertices from byte 8589934596 on, found a file "
               "of 88 bytes");
+    const std::string row(36, '\0');
+    EXPECT_EQ(mdd_refusal(mdd() + row),
+              "mdd byte 124: expected the end after 2 rows of 3 vertices from byte 16 on, found a file of 124 bytes");
     EXPECT_THAT(mdd_refusal(mdd() + "x"), HasSubstr("found a file of 89 bytes"));
     EXPECT_EQ(mdd_refusal(with(mdd(), 20, "\x7f\xc0\0\0"s)), "mdd byte 20: expected a finite number, found nan");
     EXPECT_EQ(mdd_refusal(with(mdd(), 12, "\0\0\0\0"s)),
@@ -123,6 +126,7 @@ TEST(PointCache, what_is_wrong_is_told_with_its_byte) {
               "pc2 byte 24: expected a number of frames per row above 0, found 0");
     EXPECT_THAT(pc2_refusal(with(pc2(), 24, "\xff\xff\x7f\xff"s)), HasSubstr("frames per row above 0, found -"));
     EXPECT_THAT(pc2_refusal(with(pc2(), 24, "\0\0\xc0\x7f"s)), HasSubstr("frames per row above 0, found nan"));
+    EXPECT_THAT(pc2_refusal(pc2() + row), HasSubstr("found a file of 140 bytes"));
     EXPECT_THAT(pc2_refusal(pc2().substr(0, 50)), HasSubstr("found a file of 50 bytes"));
 }
 

@@ -160,7 +160,12 @@ TEST(Sequence, keys_of_a_baked_animation_are_the_rows) {
     keys[3] += 0.01F;
     const MeshSequence sequence = sequence_in(keyed(keys, {1, keys[3], keys[24]}));
     ASSERT_EQ(sequence.times.size(), 25U);
-    for (std::size_t row = 0; row < 25; ++row) EXPECT_EQ(sequence.times[row], double{keys[row]} - 1);
+    const std::vector<float> lift = pattern(25, 1);
+    for (std::size_t row = 0; row < 25; ++row) {
+        EXPECT_EQ(sequence.times[row], double{keys[row]} - 1);
+        const std::vector<Vec3f> p = row_of(sequence, row);
+        EXPECT_NEAR(p[2].z - p[0].z, lift[row], 1e-6) << row;
+    }
 }
 
 TEST(Sequence, rows_lie_evenly_where_keys_are_few_or_apart) {
