@@ -33,6 +33,8 @@ if(TARGET mien_cli)
   script_test(cli.shapes ${CMAKE_CURRENT_SOURCE_DIR}/cli/shapes_test.py)
   script_test(cli.extract ${CMAKE_CURRENT_SOURCE_DIR}/cli/extract_test.py)
   set_tests_properties(cli.evaluate cli.shapes cli.extract PROPERTIES ENVIRONMENT ${program})
+  script_test(cli.animated_heads ${CMAKE_CURRENT_SOURCE_DIR}/cli/sequence_test.py)
+  set_tests_properties(cli.animated_heads PROPERTIES ENVIRONMENT ${program})
 
   # The README's fragment: compiled and linked as it stands, and run beside the samples it names.
   set(fragment ${CMAKE_CURRENT_BINARY_DIR}/readme)
