@@ -217,6 +217,17 @@ TEST(LearnFat, AsWrittenParametersThatActAloneGiveTheirFields) {
         }
 }
 
+TEST(LearnFat, AsWrittenBothWaysFromRestAreKeptApart) {
+    const Head head;
+    const auto half_below = [](int, double value) { return value < 0 ? 0.5 * value : value; };
+    const LearntFat learnt = learn(head, animated::one_by_one(), Reading::paper, half_below);
+    for (const int fap : animated::moving_faps()) {
+        const std::vector<Vec3> up = played(head, learnt.fat, fap, 100), down = played(head, learnt.fat, fap, -100);
+        const std::uint32_t v = head.face.points[*find_point(head.face.points, fap_info(fap).point)].vertex;
+        EXPECT_LT(distance(down[v], -0.5 * up[v]), 1e-3 * length(up[v])) << fap_info(fap).name;
+    }
+}
+
 TEST(LearnFat, AsWrittenAVertexDependsOnEveryParameterThatIsNeverActiveWithoutIt) {
     const Head head;
     const LearntFat learnt = learn(head, animated::all_at_once(40), Reading::paper);
