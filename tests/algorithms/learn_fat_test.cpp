@@ -133,6 +133,20 @@ TEST(LearnFat, AParameterThatBendsAtRestIsBentThere) {
     EXPECT_LT(distance(down[brow], -0.25 * up[brow]), 0.02 * length(up[brow]));
 }
 
+// Half of a single unit is no border.
+TEST(LearnFat, AParameterThatHardlyGoesBelowRestHasBordersThatAscend) {
+    const Head head;
+    FapStream stream = animated::all_at_once();
+    for (FapFrame& frame : stream.frames) {
+        std::int32_t& brow = frame.value[fap_index(31)];
+        brow = std::max(brow, -1);
+    }
+    const auto faster_above = [](int fap, double value) { return fap == 31 && value > 125 ? 3 * value - 250 : value; };
+    const LearntFat learnt = learn(head, stream, Reading::remedied, faster_above);
+    EXPECT_EQ(about(learnt, 31).intervals, 3U);
+    EXPECT_NO_THROW(deform(learnt.fat, head.face.mesh, stream));
+}
+
 TEST(LearnFat, EyeballsAndTheHeadTurnAsParts) {
     const Head head;
     const FapStream stream = animated::all_at_once(60);
