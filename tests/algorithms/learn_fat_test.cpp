@@ -204,6 +204,41 @@ TEST(LearnFat, TeethThatHangOnTheJawTurnAboutItsHinge) {
     }
 }
 
+TEST(LearnFat, AHeadThatOnlyTurnsHasATableOfItsTurnsAlone) {
+    const Head head;
+    FapStream rest = animated::all_at_once(20);
+    for (FapFrame& frame : rest.frames) frame.value.fill(0);
+    const UprightSequence found =
+        upright(animated::play(head.face, head.fapu, rest, animated::poses(20)), head.face.points);
+    for (const Reading reading : {Reading::remedied, Reading::paper}) {
+        const LearntFat learnt = learn_fat(found, head.fapu, rest, reading);
+        ASSERT_EQ(learnt.fat.nodes.empty(), false);
+        EXPECT_EQ(learnt.fat.nodes.back().name, "head");
+        for (const FaceDefTables& table : learnt.fat.tables) {
+            EXPECT_TRUE(table.meshes.empty());
+            EXPECT_FALSE(table.transforms.empty());
+        }
+        EXPECT_TRUE(learnt.parameters.empty());
+    }
+}
+
+// A parameter that is sent while nothing moves, and a head that moves without any.
+TEST(LearnFat, AnAnimationAndAStreamThatHaveNothingToDoWithEachOtherGiveAnEmptyTable) {
+    const Head head;
+    const FapStream stream = animated::all_at_once(20);
+    FapStream rest = stream;
+    for (FapFrame& frame : rest.frames) frame.value.fill(0);
+    const LearntFat still =
+        learn_fat(animated::still(head.face, animated::play(head.face, head.fapu, rest)), head.fapu, stream);
+    const LearntFat silent =
+        learn_fat(animated::still(head.face, animated::play(head.face, head.fapu, stream)), head.fapu, rest);
+    for (const LearntFat* learnt : {&still, &silent})
+        for (const FaceDefTables& table : learnt->fat.tables) EXPECT_TRUE(table.meshes.empty());
+    const std::uint32_t brow = head.face.points[*find_point(head.face.points, "4.1")].vertex;
+    EXPECT_DOUBLE_EQ(silent.beyond[brow], silent.motion[brow]) << "nothing of it can be said";
+    EXPECT_GT(silent.motion[brow], 0);
+}
+
 TEST(LearnFat, WhatNoParameterFollowsIsNamed) {
     const Head head;
     const FapStream stream = animated::all_at_once();
