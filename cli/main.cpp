@@ -60,12 +60,14 @@ int run(int argc, char** argv) {
     add_render(app, call);
     add_faps(app, call);
     add_play(app, call);
+    add_extract(app, call);
     add_encode(app, call);
     add_decode(app, call);
     add_fap(app, call);
     add_morph(app, call);
     add_evaluate(app, call);
     add_shapes(app, call);
+    add_fat(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

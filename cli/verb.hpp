@@ -53,11 +53,13 @@ void add_deform(CLI::App& app, Call& call);
 void add_render(CLI::App& app, Call& call);
 void add_faps(CLI::App& app, Call& call);
 void add_play(CLI::App& app, Call& call);
+void add_extract(CLI::App& app, Call& call);
 void add_encode(CLI::App& app, Call& call);
 void add_decode(CLI::App& app, Call& call);
 void add_fap(CLI::App& app, Call& call);
 void add_morph(CLI::App& app, Call& call);
 void add_evaluate(CLI::App& app, Call& call);
 void add_shapes(CLI::App& app, Call& call);
+void add_fat(CLI::App& app, Call& call);
 
 }  // namespace mien::cli

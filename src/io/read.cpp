@@ -15,11 +15,14 @@
 #include <memory>
 #include <system_error>
 
+#include "io/frame_folder.hpp"
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
 #include "mien/io/c3d.hpp"
 #include "mien/io/fap_text.hpp"
+#include "mien/io/fbx.hpp"
+#include "mien/io/fdp_json.hpp"
 #include "mien/io/fit.hpp"
 #include "mien/io/marker_map.hpp"
 #include "mien/io/measured_points.hpp"
@@ -61,6 +64,11 @@ Bytes read_bytes(const fs::path& path) {
     return bytes;
 }
 
+// An error of a parser, behind the file's name.
+[[noreturn]] void fail_in(const fs::path& path, const Error& error) {
+    throw Error(fmt::format("{}: {}", path.string(), error.what()), error.kind());
+}
+
 // Reads the file and parses it, with its name before whatever the parser has to say.
 template <class Parse>
 auto parsed(const fs::path& path, const Parse& parse) {
@@ -68,7 +76,7 @@ auto parsed(const fs::path& path, const Parse& parse) {
     try {
         return parse(std::span<const std::byte>(bytes));
     } catch (const Error& error) {
-        throw Error(fmt::format("{}: {}", path.string(), error.what()), error.kind());
+        fail_in(path, error);
     }
 }
 
@@ -136,6 +144,15 @@ bool is_gltf(const fs::path& path) {
     return has_extension(path, ".glb") || has_extension(path, ".gltf");
 }
 
+bool is_fbx(const fs::path& path) {
+    return has_extension(path, ".fbx");
+}
+
+// For documents that hold everything themselves.
+Bytes no_fetch(std::string_view uri) {
+    throw Error(fmt::format("uri {}: expected nothing outside of the file", shown(uri)));
+}
+
 Fetch beside(const fs::path& gltf) {
     return [gltf](std::string_view uri) { return fetch_beside(gltf, uri); };
 }
@@ -146,8 +163,35 @@ ParseMesh mesh_parser(const fs::path& path) {
     if (has_extension(path, ".obj")) return parse_obj;
     if (has_extension(path, ".off")) return parse_off;
     if (has_extension(path, ".ply")) return parse_ply;
-    if (!is_gltf(path)) unknown_extension(path, ".glb, .gltf, .obj, .off or .ply");
+    if (is_fbx(path)) return [](std::span<const std::byte> bytes) { return parse_gltf(convert_fbx(bytes), no_fetch); };
+    if (!is_gltf(path)) unknown_extension(path, ".glb, .gltf, .fbx, .obj, .off or .ply");
     return [fetch = beside(path)](std::span<const std::byte> bytes) { return parse_gltf(bytes, fetch); };
+}
+
+// Rows are worked out later, and an error of theirs is the file's as well.
+MeshSequence named(const fs::path& path, MeshSequence sequence) {
+    sequence.positions = [path, row_of = std::move(sequence.positions)](std::size_t row, std::span<Vec3f> positions) {
+        try {
+            row_of(row, positions);
+        } catch (const Error& error) {
+            fail_in(path, error);
+        }
+    };
+    return sequence;
+}
+
+using ParseCache = MeshSequence (*)(Bytes, Mesh, double);
+MeshSequence read_cache(const fs::path& path, const SequenceOptions& options, ParseCache parse) {
+    if (options.head.empty())
+        throw Error(
+            fmt::format("{}: it holds positions alone; expected the head they belong to, found none", path.string()));
+    Mesh head = read_mesh(options.head);
+    Bytes bytes = read_bytes(path);
+    try {
+        return parse(std::move(bytes), std::move(head), options.rate);
+    } catch (const Error& error) {
+        fail_in(path, error);
+    }
 }
 
 }  // namespace
@@ -165,6 +209,34 @@ Scene read_scene(const fs::path& path) {
     const ParseMesh parse = mesh_parser(path);
     return parsed(path, [&](std::span<const std::byte> bytes) {
         return is_gltf(path) ? parse_scene(bytes, beside(path)) : scene_of(parse(bytes));
+    });
+}
+
+MeshSequence read_sequence(const fs::path& path, const SequenceOptions& options) {
+    std::error_code unknown;
+    if (fs::is_directory(path, unknown)) return read_frames(path, options.rate);
+    if (has_extension(path, ".mdd")) return read_cache(path, options, parse_mdd);
+    if (has_extension(path, ".pc2")) return read_cache(path, options, parse_pc2);
+    if (!is_gltf(path) && !is_fbx(path)) unknown_extension(path, ".glb, .gltf, .fbx, .mdd or .pc2, or a folder");
+    return named(path, parsed(path, [&](std::span<const std::byte> bytes) {
+                     return is_fbx(path) ? parse_gltf_sequence(convert_fbx(bytes), no_fetch, options)
+                                         : parse_gltf_sequence(bytes, beside(path), options);
+                 }));
+}
+
+std::vector<Animation> read_animations(const fs::path& path) {
+    if (!is_gltf(path) && !is_fbx(path)) unknown_extension(path, ".glb, .gltf or .fbx");
+    return parsed(path, [&](std::span<const std::byte> bytes) {
+        return is_fbx(path) ? parse_gltf_animations(convert_fbx(bytes), no_fetch)
+                            : parse_gltf_animations(bytes, beside(path));
+    });
+}
+
+PointCacheContent read_cache_content(const fs::path& path) {
+    const bool is_mdd = has_extension(path, ".mdd");
+    if (!is_mdd && !has_extension(path, ".pc2")) unknown_extension(path, ".mdd or .pc2");
+    return parsed(path, [&](std::span<const std::byte> bytes) {
+        return is_mdd ? check_mdd({bytes.begin(), bytes.end()}) : check_pc2({bytes.begin(), bytes.end()});
     });
 }
 
@@ -202,6 +274,14 @@ Face read_face(const fs::path& head, const fs::path& points) {
 std::vector<Rename> read_marker_map(const fs::path& path) {
     if (!has_extension(path, ".csv") && !has_extension(path, ".json")) unknown_extension(path, ".csv or .json");
     return parsed(path, parse_marker_map);
+}
+
+Fdp read_fdp(const fs::path& path, const FdpTextOptions& options) {
+    if (has_extension(path, ".json")) return parsed(path, parse_fdp_json);
+    for (const std::string_view extension : {".fat", ".bt", ".fdp", ".fapu"})
+        if (has_extension(path, extension))
+            return parsed(path, [&](std::span<const std::byte> bytes) { return parse_fdp_text(bytes, options); });
+    unknown_extension(path, ".fat, .bt, .fdp, .fapu or .json");
 }
 
 RigFile read_rig(const fs::path& path) {
