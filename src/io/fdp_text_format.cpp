@@ -79,16 +79,9 @@ void append_vector(std::string& text, const Vec3& v) {
     append_number(text, v.z);
 }
 
-// A double is not always a product of a unit and another one; this is the nearest.
-double in_units(double number, double unit) {
-    const double quotient = number / unit;
-    for (const double near : {quotient, std::nextafter(quotient, -HUGE_VAL), std::nextafter(quotient, HUGE_VAL)})
-        if (near * unit == number) return near;
-    return quotient;
-}
-
+// A double is not always a product of a unit and another one; the quotient gives the nearest that is, and itself again.
 Vec3 in_units(const Vec3& v, double unit) {
-    return {in_units(v.x, unit), in_units(v.y, unit), in_units(v.z, unit)};
+    return {v.x / unit, v.y / unit, v.z / unit};
 }
 
 std::string escaped(std::string_view text) {
@@ -111,7 +104,8 @@ public:
     std::string write() {
         text_ = "# MPEG-4 face definition as BIFS text, by mien\nGroup {\n  children [\n";
         add_world();
-        if (!fdp_.points.empty() || vertex_count(fdp_.mesh) > 0) add_face();
+        if (has_units_only()) return std::move(text_) + "  ]\n}\n";
+        add_face();
         return std::move(text_) + "  ]\n}\n";
     }
 
@@ -123,11 +117,19 @@ private:
         return unique;
     }
 
+    [[nodiscard]] bool has_units() const {
+        return std::any_of(named_units.begin(), named_units.end(),
+                           [&](const NamedUnit& u) { return fdp_.fapu.*(u.distance) > 0; });
+    }
+
+    [[nodiscard]] bool has_units_only() const {
+        const TreeNode& scene = tree_.nodes.back();
+        return has_units() && fdp_.points.empty() && scene.shapes.empty() && scene.nodes.empty();
+    }
+
     void add_world() {
         text_ += "    WorldInfo {\n      title \"Face definition\"\n      info [";
-        const bool known = std::any_of(named_units.begin(), named_units.end(),
-                                       [&](const NamedUnit& u) { return fdp_.fapu.*(u.distance) > 0; });
-        if (known) {
+        if (has_units()) {
             text_ += " \"FAPU";
             for (const NamedUnit& unit : named_units) {
                 text_ += fmt::format(" {} ", unit.name);
@@ -142,9 +144,9 @@ private:
     void add_face() {
         text_ += "    Face {\n      fdp FDP {\n";
         if (!fdp_.points.empty()) add_points();
-        if (vertex_count(fdp_.mesh) > 0) {
+        if (const TreeNode& scene = tree_.nodes.back(); !scene.shapes.empty() || !scene.nodes.empty()) {
             text_ += "        faceSceneGraph [\n";
-            add_node(tree_.nodes.back(), "          ");
+            add_node(scene, "          ");
             text_ += "        ]\n";
         }
         if (!fdp_.fat.tables.empty()) {
@@ -300,7 +302,7 @@ private:
             begin(2, "rotationDef");
             append_vector(text_, transform.axis);
             text_ += ' ';
-            append_number(text_, in_units(transform.angle, unit_length(fdp_.fapu, FapUnit::angle)));
+            append_number(text_, transform.angle / unit_length(fdp_.fapu, FapUnit::angle));
         } else if (transform.field == TransformField::scale) {
             begin(3, "scaleDef");
             append_vector(text_, in_units(transform.scale, unit(fap)));
