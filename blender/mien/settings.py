@@ -18,10 +18,9 @@ class MienSettings(bpy.types.PropertyGroup):
 
 
 class MienHead(bpy.types.PropertyGroup):
-    """Of every mesh of a head that was rigged or extracted."""
-    name: bpy.props.StringProperty(description="Of the head: its folder")
-    rig: bpy.props.StringProperty(subtype="FILE_PATH", description="The rig that mien made")
-    table: bpy.props.StringProperty(subtype="FILE_PATH", description="The face animation table that mien made")
+    """Of every mesh of a head: the rig or the table that was made from it."""
+    head: bpy.props.StringProperty(description="The name of the head: its folder")
+    file: bpy.props.StringProperty(subtype="FILE_PATH", description="What mien made")
     first_vertex: bpy.props.IntProperty(description="Where the vertices of this mesh begin among those of the head")
     vertices: bpy.props.IntProperty(description="How many there are")
     to_object: bpy.props.FloatVectorProperty(
@@ -44,13 +43,15 @@ def register() -> None:
     for kind in CLASSES:
         bpy.utils.register_class(kind)
     bpy.types.Scene.mien = bpy.props.PointerProperty(type=MienSettings)
-    bpy.types.Object.mien = bpy.props.PointerProperty(type=MienHead)
+    bpy.types.Object.mien_rig = bpy.props.PointerProperty(type=MienHead)
+    bpy.types.Object.mien_table = bpy.props.PointerProperty(type=MienHead)
     bpy.types.WindowManager.mien = bpy.props.PointerProperty(type=MienState)
 
 
 def unregister() -> None:
     del bpy.types.WindowManager.mien
-    del bpy.types.Object.mien
+    del bpy.types.Object.mien_table
+    del bpy.types.Object.mien_rig
     del bpy.types.Scene.mien
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)

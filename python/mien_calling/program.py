@@ -20,9 +20,10 @@ class MienError(Exception):
 
 
 class Progress(typing.NamedTuple):
-    """What is going on, and how much of it is done: from 0 to 1, or None where that is not known."""
+    """What is going on, how much of it is done (0 to 1, None where that is not known), whether the scene must wait."""
     what: str
     share: typing.Optional[float] = None
+    holds: bool = False
 
 
 Steps = typing.Generator[Progress, None, typing.Any]
