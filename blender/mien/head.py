@@ -96,7 +96,7 @@ def named_points(head: Head) -> Points:
     if not points:
         raise MienError("The head has no feature points: choose a points file, or make vertex groups named like 8.4 "
                         "that hold one vertex each.")
-    return points
+    return dict(sorted(points.items(), key=lambda point: [int(number) for number in point[0].split(".")]))
 
 
 @contextlib.contextmanager

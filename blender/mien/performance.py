@@ -2,6 +2,7 @@
 # Copyright (c) 2026 the mien authors
 """A performance that the program wrote, on the head itself: a point cache in each mesh's own space, and its modifier."""
 import array
+import contextlib
 import os
 import typing
 
@@ -35,18 +36,21 @@ def file_name(thing: bpy.types.Object) -> str:
 def split(head: Head, source: str, spaces: Spaces, folder: str) -> Steps:
     """One cache a mesh from that of the head; the value is what rows they have."""
     counts = [len(thing.data.vertices) for thing in head.meshes]
-    with MddReader(source) as reader:
+    with MddReader(source) as reader, contextlib.ExitStack() as opened:
         needed = max(first + count for first, count in zip(head.first_vertices, counts))
         if reader.vertices < needed:
             raise MienError(f"expected {needed} vertices in the performance, found {reader.vertices}; make the rig anew.")
-        for number, (thing, first, count) in enumerate(zip(head.meshes, head.first_vertices, counts)):
-            with MddWriter(os.path.join(folder, file_name(thing)), reader.times, count) as writer:
-                for row in range(reader.rows):
-                    values = numpy.frombuffer(reader.row(row), dtype=numpy.float32)[3 * first:3 * (first + count)]
-                    own = moved(values, numpy.array(spaces(row)[number]))
-                    writer.row(array.array("f", own.tobytes()))
-                    yield Progress(f"bringing {thing.name} back", (row + 1) / reader.rows)
-        return Rows(reader.rows, reader.rows_per_second())
+        rows = Rows(reader.rows, reader.rows_per_second())
+        times = [row / rows.per_second for row in range(rows.count)]
+        writers = [opened.enter_context(MddWriter(os.path.join(folder, file_name(thing)), times, count))
+                   for thing, count in zip(head.meshes, counts)]
+        for row in range(rows.count):
+            values = numpy.frombuffer(reader.even_row(row), dtype=numpy.float32)
+            for writer, first, count, matrix in zip(writers, head.first_vertices, counts, spaces(row)):
+                own = moved(values[3 * first:3 * (first + count)], numpy.array(matrix))
+                writer.row(array.array("f", own.tobytes()))
+            yield Progress(f"bringing {head.name} back", (row + 1) / rows.count)
+    return rows
 
 
 def perform(head: Head, folder: str, timing: Timing) -> None:

@@ -5,6 +5,7 @@
 Vertices are y up, as in glTF, and in the order of the host: the program keeps it.
 """
 import array
+import bisect
 import json
 import os
 import struct
@@ -13,6 +14,7 @@ import typing
 
 from .program import MienError
 
+EVEN = 1e-3  # of a row: times of a cache are single precision
 Faces = typing.Sequence[typing.Sequence[int]]
 
 
@@ -91,9 +93,20 @@ class MddReader:
         return self._floats(3 * self.vertices)
 
     def rows_per_second(self) -> float:
-        """Of a cache whose rows are evenly spaced; 1 for one of a single row."""
+        """On average; 1 for a cache of a single row."""
         span = self.times[-1] - self.times[0] if self.rows > 1 else 0
         return (self.rows - 1) / span if span > 0 else 1
+
+    def even_row(self, number: int) -> array.array:
+        """The row that would be here if rows were evenly spaced, as hosts play them: between its neighbours in time."""
+        place = self.times[0] + number / self.rows_per_second()
+        after = min(bisect.bisect_left(self.times, place), self.rows - 1)
+        for near in (max(after - 1, 0), after):
+            if abs(self.times[near] - place) * self.rows_per_second() < EVEN:
+                return self.row(near)
+        low, high = self.row(after - 1), self.row(after)
+        share = (place - self.times[after - 1]) / (self.times[after] - self.times[after - 1])
+        return array.array("f", (x + share * (y - x) for x, y in zip(low, high)))
 
     def __enter__(self) -> "MddReader":
         return self
