@@ -6,7 +6,8 @@ import typing
 
 import bpy
 
-from . import tasks
+from .host import BlenderHost
+from .mien_calling import tasks
 from .mien_calling.program import MienError, Progress, Steps
 
 TICK = 0.1  # seconds between looks at the program
@@ -100,7 +101,7 @@ class MIEN_OT_extract(Command, bpy.types.Operator):
     bl_label = "Extract MPEG-4"
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        return tasks.extract(context)
+        return tasks.extract(BlenderHost(context))
 
 
 class MIEN_OT_rig(Command, bpy.types.Operator):
@@ -109,7 +110,7 @@ class MIEN_OT_rig(Command, bpy.types.Operator):
     bl_label = "Rig from Feature Points"
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        return tasks.rig(context)
+        return tasks.rig(BlenderHost(context))
 
 
 class MIEN_OT_retarget(FileCommand, bpy.types.Operator):
@@ -120,7 +121,7 @@ class MIEN_OT_retarget(FileCommand, bpy.types.Operator):
     filter_glob: bpy.props.StringProperty(default="*.trc;*.csv;*.c3d", options={"HIDDEN"})
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        return tasks.retarget(context, self.chosen())
+        return tasks.retarget(BlenderHost(context), self.chosen())
 
 
 class MIEN_OT_import_fap(FileCommand, bpy.types.Operator):
@@ -131,7 +132,7 @@ class MIEN_OT_import_fap(FileCommand, bpy.types.Operator):
     filter_glob: bpy.props.StringProperty(default="*.fap;*.fba", options={"HIDDEN"})
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        return tasks.import_fap(context, self.chosen())
+        return tasks.import_fap(BlenderHost(context), self.chosen())
 
 
 class MIEN_OT_stop(bpy.types.Operator):
