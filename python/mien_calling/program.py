@@ -134,12 +134,3 @@ def running(program: str, arguments: typing.Sequence[str]) -> Steps:
         return run.finish()
     finally:
         run.stop()
-
-
-def told_to_the_end(steps: Steps) -> typing.Any:
-    """The value of a generator of steps, when nobody looks at the steps."""
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            return end.value
