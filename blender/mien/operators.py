@@ -18,6 +18,14 @@ def state(context: bpy.types.Context) -> "bpy.types.PropertyGroup":
     return context.window_manager.mien
 
 
+def _draw_panel(context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            for region in area.regions:
+                if area.type == "VIEW_3D" and region.type == "UI":
+                    region.tag_redraw()
+
+
 class Command:
     """Runs steps. What they tell, and what came of them, is shown by the panel."""
     bl_options = {"REGISTER", "UNDO"}
@@ -49,8 +57,7 @@ class Command:
             return self._end(context, "Stopped; nothing was kept.", {"CANCELLED"})
         if event.type == "TIMER":
             result = self._advance(context, BUSY)
-            for area in context.screen.areas if context.screen else ():
-                area.tag_redraw()
+            _draw_panel(context)
             return result or {"RUNNING_MODAL"}
         return {"RUNNING_MODAL"} if self._progress.holds else {"PASS_THROUGH"}
 

@@ -16,16 +16,16 @@ class MIEN_PT_panel(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.mien
+        self._tell(context)
         column = layout.column()
         column.prop(settings, "points")
         column.prop(settings, "folder")
         layout.operator("mien.extract", icon="EXPORT")
         layout.operator("mien.rig", icon="BONE_DATA")
         box = layout.box()
-        box.prop(settings, "marker_map")
+        box.prop(settings, "marker_map", text="Map")
         box.operator("mien.retarget", icon="IMPORT")
         layout.operator("mien.import_fap", icon="IMPORT")
-        self._tell(context)
 
     def _tell(self, context: bpy.types.Context) -> None:
         told = context.window_manager.mien
