@@ -7,10 +7,12 @@ import typing
 import bpy
 import numpy
 
-from .mien_calling.host import Head, Points
+from .mien_calling.host import Head
+from .mien_calling.host import Points as PointVertices
 from .mien_calling.program import MienError
 
-CACHE = "mien"  # the modifier by which a head performs
+# The add-on's own modifiers, in their order: a performance, bones on top of it, the replay of what was extracted.
+PERFORMANCE, POINTS, REPLAY = OWN = ("mien", "mien points", "mien replay")
 POINT = re.compile(r"\d+\.\d+")
 # Modifiers that make or drop vertices; what they make follows from what stands above them.
 MAKERS = {"ARRAY", "BEVEL", "BOOLEAN", "BUILD", "DECIMATE", "EDGE_SPLIT", "EXPLODE", "MASK", "MIRROR", "MULTIRES",
@@ -20,16 +22,27 @@ STILL = MAKERS | {"DATA_TRANSFER", "NORMAL_EDIT", "UV_PROJECT", "UV_WARP", "VERT
                   "VERTEX_WEIGHT_PROXIMITY", "WEIGHTED_NORMAL"}
 
 
-def place_of_cache(thing: bpy.types.Object) -> int:
-    """Before the first modifier that makes vertices, after all that move them."""
-    kinds = [modifier.type for modifier in thing.modifiers if modifier.name != CACHE]
-    makers = [index for index, kind in enumerate(kinds) if kind in MAKERS]
-    place = makers[0] if makers else len(kinds)
-    for modifier in [modifier for modifier in thing.modifiers if modifier.name != CACHE][place:]:
+def others(thing: bpy.types.Object) -> typing.List[bpy.types.Modifier]:
+    """Its modifiers that are not the add-on's."""
+    return [modifier for modifier in thing.modifiers if modifier.name not in OWN]
+
+
+def check_modifiers(thing: bpy.types.Object) -> int:
+    """How many modifiers stand above the first that makes vertices; none below may move vertices."""
+    kinds = [modifier.type in MAKERS for modifier in others(thing)]
+    place = kinds.index(True) if True in kinds else len(kinds)
+    for modifier in others(thing)[place:]:
         if modifier.type not in STILL and modifier.show_viewport:
             raise MienError(f"{thing.name}: the modifier {modifier.name} moves vertices that one above it made; "
                             "move it up, or apply the one above.")
     return place
+
+
+def place_of(context: bpy.types.Context, thing: bpy.types.Object, name: str) -> None:
+    """Moves one of the add-on's modifiers to where it belongs: after all that move vertices, before those that make some."""
+    before = [own for own in OWN[:OWN.index(name)] if own in thing.modifiers]
+    with context.temp_override(object=thing, active_object=thing):
+        bpy.ops.object.modifier_move_to_index(modifier=name, index=check_modifiers(thing) + len(before))
 
 
 def _check(thing: bpy.types.Object) -> None:
@@ -39,7 +52,7 @@ def _check(thing: bpy.types.Object) -> None:
     loose = len(mesh.vertices) - len(numpy.unique(corners))
     if loose:
         raise MienError(f"{thing.name}: {loose} vertices belong to no face; Mesh > Clean Up > Delete Loose removes them.")
-    place_of_cache(thing)
+    check_modifiers(thing)
 
 
 def selected_head(context: bpy.types.Context) -> Head:
@@ -47,8 +60,8 @@ def selected_head(context: bpy.types.Context) -> Head:
     chosen = [thing for thing in context.selected_objects if thing.type == "MESH"]
     if not chosen:
         raise MienError("Select the meshes of one head first.")
-    if any(thing.mode == "EDIT" for thing in chosen):
-        raise MienError("Leave edit mode first.")
+    if context.mode != "OBJECT":
+        raise MienError("Go to object mode first.")
     active = context.view_layer.objects.active
     chosen.sort(key=lambda thing: (thing != active, thing.name))
     for thing in chosen:
@@ -68,9 +81,9 @@ def _holders(thing: bpy.types.Object) -> typing.Dict[str, typing.List[int]]:
     return found
 
 
-def named_points(head: Head) -> Points:
+def named_points(head: Head) -> PointVertices:
     """The vertex of each vertex group that is named like a feature point."""
-    points: Points = {}
+    points: PointVertices = {}
     for thing, first in zip(head.meshes, head.first_vertices):
         for name, vertices in _holders(thing).items():
             if len(vertices) != 1:

@@ -12,6 +12,7 @@ from mathutils import Matrix
 
 from . import head as heads
 from . import preferences
+from .handles import give_handles
 from .mien_calling.files import MddWriter
 from .mien_calling.host import Head, Points, Remembered, Timing
 from .mien_calling.program import MienError
@@ -65,9 +66,10 @@ class BlenderHost:
         return heads.named_points(head)
 
     @contextlib.contextmanager
-    def reading(self, head: Head) -> typing.Iterator[None]:
+    def reading(self, head: Head, at_rest: bool) -> typing.Iterator[None]:
+        left_out = heads.OWN if at_rest else (heads.REPLAY,)
         hidden = [(thing, modifier.name) for thing in head.meshes for modifier in thing.modifiers
-                  if modifier.show_viewport and (modifier.name == heads.CACHE or modifier.type in heads.MAKERS)]
+                  if modifier.show_viewport and (modifier.name in left_out or modifier.type in heads.MAKERS)]
         frame = self._scene.frame_current
         try:
             for thing, name in hidden:
@@ -122,12 +124,13 @@ class BlenderHost:
     def _cache_file(self, folder: str, mesh: bpy.types.Object) -> str:
         return os.path.join(folder, clean(mesh.name) + ".mdd")
 
-    def perform(self, head: Head, folder: str, timing: Timing) -> None:
-        places = [heads.place_of_cache(thing) for thing in head.meshes]
-        for thing, place in zip(head.meshes, places):
-            cache = thing.modifiers.get(heads.CACHE) or thing.modifiers.new(heads.CACHE, "MESH_CACHE")
-            with self._context.temp_override(object=thing, active_object=thing):
-                bpy.ops.object.modifier_move_to_index(modifier=heads.CACHE, index=place)
+    def perform(self, head: Head, folder: str, timing: Timing, is_replay: bool) -> None:
+        name = heads.REPLAY if is_replay else heads.PERFORMANCE
+        for thing in head.meshes:
+            if not is_replay and heads.REPLAY in thing.modifiers:
+                thing.modifiers.remove(thing.modifiers[heads.REPLAY])
+            cache = thing.modifiers.get(name) or thing.modifiers.new(name, "MESH_CACHE")
+            heads.place_of(self._context, thing, name)
             cache.cache_format, cache.time_mode, cache.play_mode = "MDD", "FRAME", "SCENE"
             cache.frame_scale = timing.rows_per_frame
             cache.frame_start = timing.first_frame * timing.rows_per_frame
@@ -139,6 +142,8 @@ class BlenderHost:
             note = getattr(thing, "mien_" + kind)
             note.head, note.file, note.first_vertex, note.vertices = what.head.name, relative(what.file), first, count
             note.to_object = space
+        if kind == "rig":
+            give_handles(self._context, what.head, what.file, Y_UP.inverted())
 
     def remembered(self, kind: str) -> typing.Optional[Remembered]:
         active = self._context.view_layer.objects.active
@@ -152,7 +157,7 @@ class BlenderHost:
             if other.vertices != len(thing.data.vertices):
                 raise MienError(f"{thing.name}: expected {other.vertices} vertices as when its {kind} was made, found "
                                 f"{len(thing.data.vertices)}; make it anew.")
-            heads.place_of_cache(thing)
+            heads.check_modifiers(thing)
         head = Head(note.head, [thing for _other, thing in own], [other.first_vertex for other, _thing in own],
                     [other.vertices for other, _thing in own])
         return Remembered(head, bpy.path.abspath(note.file), [list(other.to_object) for other, _thing in own])

@@ -76,9 +76,10 @@ class MayaHost:
         return points
 
     @contextlib.contextmanager
-    def reading(self, head: Head) -> typing.Iterator[None]:
+    def reading(self, head: Head, at_rest: bool) -> typing.Iterator[None]:
         frame = cmds.currentTime(query=True)
-        performing = [switch for switch in map(self._switch, head.meshes) if switch]
+        performing = [switch for switch in map(self._switch, head.meshes)
+                      if switch and (at_rest or self._caches(switch, "mienReplay"))]
         try:
             for switch in performing:
                 cmds.setAttr(switch + ".playFromCache", False)
@@ -119,19 +120,27 @@ class MayaHost:
         name = tasks.clean(self.mesh_name(mesh))
         return GeometryCacheWriter(os.path.join(folder, name), name, seconds, rate)
 
-    def perform(self, head: Head, folder: str, timing: Timing) -> None:
+    def perform(self, head: Head, folder: str, timing: Timing, is_replay: bool) -> None:
         for shape in head.meshes:
             switch = self._switch(shape) or mel.eval(f'createHistorySwitch("{shape}", false)')
-            before = cmds.listConnections(switch, type="cacheFile")
+            before = self._caches(switch)
             if before:
                 cmds.delete(before)
             name = tasks.clean(self.mesh_name(shape))
-            cmds.cacheFile(attachFile=True, fileName=name, directory=folder, channelName=name, inAttr=switch + ".inp[0]")
+            cache = cmds.cacheFile(attachFile=True, fileName=name, directory=folder, channelName=name,
+                                   inAttr=switch + ".inp[0]")
+            if is_replay:
+                cmds.addAttr(cache, longName="mienReplay", attributeType="bool")
             cmds.setAttr(switch + ".playFromCache", True)
 
     def _switch(self, shape: str) -> str:
         found = cmds.listConnections(shape + ".inMesh", type="historySwitch")
         return found[0] if found else ""
+
+    def _caches(self, switch: str, with_attribute: str = "") -> typing.List[str]:
+        found = cmds.listConnections(switch, type="cacheFile") or []
+        return [cache for cache in found
+                if not with_attribute or cmds.attributeQuery(with_attribute, node=cache, exists=True)]
 
     def remember(self, kind: str, what: Remembered) -> None:
         name = "mien" + kind.capitalize()

@@ -61,8 +61,9 @@ class Host(typing.Protocol):
     def named_points(self, head: Head) -> Points:
         """By their vertices among those of the head."""
 
-    def reading(self, head: Head) -> typing.ContextManager[None]:
-        """While it lasts the head does not perform and has its own vertices; then all is as before, the frame too."""
+    def reading(self, head: Head, at_rest: bool) -> typing.ContextManager[None]:
+        """While it lasts the head has its own vertices and does not replay, nor do anything else that mien had it do if it
+        is at rest; then all is as before, the frame too."""
 
     def show_frame(self, frame: int) -> None: ...
 
@@ -83,8 +84,8 @@ class Host(typing.Protocol):
     def cache(self, folder: str, mesh: Mesh, count: int, timing: Timing) -> typing.ContextManager:
         """Something with row(values), into files of this folder that bear the mesh's name."""
 
-    def perform(self, head: Head, folder: str, timing: Timing) -> None:
-        """Lets every mesh play its cache of this folder, instead of the one before."""
+    def perform(self, head: Head, folder: str, timing: Timing, is_replay: bool) -> None:
+        """Lets every mesh play its cache of this folder, instead of the one before. A replay is of what was extracted."""
 
     def remember(self, kind: str, what: Remembered) -> None:
         """Leaves on the meshes that this rig or table (the kind) was made from them."""

@@ -85,11 +85,11 @@ def _split(host: Host, head: Head, source: str, spaces: Spaces, folder: str) -> 
     return timing
 
 
-def _perform(host: Host, head: Head, made: str, name: str, timing: Timing) -> None:
+def _perform(host: Host, head: Head, made: str, name: str, timing: Timing, is_replay: bool = False) -> None:
     """Keeps the caches of a performance and lets the head play them."""
     kept = os.path.join(_folder(host, head), name)
     _keep(made, kept)
-    host.perform(head, kept, timing)
+    host.perform(head, kept, timing, is_replay)
 
 
 def rig(host: Host) -> Steps:
@@ -98,7 +98,7 @@ def rig(host: Host) -> Steps:
     kept = _folder(host, head)
     with tempfile.TemporaryDirectory(prefix="mien-") as work:
         points, neutral = _points_file(host, head, work), os.path.join(work, "head.obj")
-        with host.reading(head):
+        with host.reading(head, at_rest=True):
             write_obj(neutral, _parts(host, head, host.positions(head)))
             spaces = host.spaces(head)
         made = _made(work, "made")
@@ -140,7 +140,7 @@ def _export_motion(host: Host, head: Head, neutral: str, motion: str) -> Steps:
     frames, rate = host.frames(), host.frames_per_second()
     every_space: typing.List[typing.List[Matrix]] = []
     times = [row / rate for row in range(len(frames))]
-    with host.reading(head), MddWriter(motion, times, sum(head.counts)) as writer:
+    with host.reading(head, at_rest=False), MddWriter(motion, times, sum(head.counts)) as writer:
         for row, frame in enumerate(frames):
             host.show_frame(frame)
             placed = host.positions(head)
@@ -167,7 +167,7 @@ def extract(host: Host) -> Steps:
             mien, ["play", os.path.join(table, "face.fat"), os.path.join(table, "face.fap"), "-o", cache])
         timing = yield from _split(host, head, cache, lambda row: spaces[min(row, len(spaces) - 1)], made)
         _keep(table, kept)
-        _perform(host, head, made, "replay", timing)
+        _perform(host, head, made, "replay", timing, is_replay=True)
     host.remember("table", Remembered(head, os.path.join(kept, "face.fat"), spaces[0]))
     away = 100 * report["replay"]["mean"]
     return f"{head.name}: extracted; the replay is {away:.2g} % of the eye distance away on average"

@@ -12,6 +12,7 @@ import sys
 import unittest
 
 import bpy
+import mathutils
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
@@ -43,6 +44,11 @@ def evaluated(thing, frame):
     world = points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
     found.to_mesh_clear()
     return world[:, [0, 2, 1]] * [1, 1, -1]
+
+
+def evaluated_at_rest(thing):
+    """Where its own vertices are, without modifiers."""
+    return numpy.array([thing.matrix_world @ vertex.co for vertex in thing.data.vertices])[:, [0, 2, 1]] * [1, 1, -1]
 
 
 def size(thing):
@@ -168,7 +174,7 @@ class RigAndPerform(AddOnTest):
         bpy.context.scene.mien.marker_map = str(MAP)
         bpy.ops.mien.retarget(filepath=str(TAKE))
         for thing in meshes():
-            self.assertEqual([modifier.name for modifier in thing.modifiers], ["mien", "Smooth"])
+            self.assertEqual([modifier.name for modifier in thing.modifiers], ["mien", "mien points", "Smooth"])
             thing.modifiers["Smooth"].show_viewport = False
             turned = numpy.array(thing.matrix_world.to_3x3())
             still = rest[thing.name] @ [[1, 0, 0], [0, 0, 1], [0, -1, 0]] @ turned.T + [1, 2, 3]
@@ -182,7 +188,7 @@ class RigAndPerform(AddOnTest):
         bpy.ops.mien.rig()
         bpy.ops.mien.retarget(filepath=str(TAKE))
         self.assertEqual(self.everything(), before)
-        self.assertEqual({len(thing.modifiers) for thing in meshes()}, {1})
+        self.assertEqual({len(thing.modifiers) for thing in meshes()}, {2})
         self.assertTrue(all(thing.modifiers["mien"].filepath.startswith("//mien/head/take/") for thing in meshes()))
 
     def test_vertex_groups_that_are_named_like_points_are_feature_points(self):
@@ -197,6 +203,27 @@ class RigAndPerform(AddOnTest):
         bpy.context.scene.mien.points = str(POINTS)
         bpy.ops.mien.rig()
         self.assertEqual((self.out / "mien" / "head" / "rig.glb").read_bytes(), by_groups)
+
+
+    def test_a_bone_moves_the_skin_at_its_point_on_top_of_a_performance(self):
+        head = self.rigged()
+        bpy.context.scene.mien.marker_map = str(MAP)
+        bpy.ops.mien.retarget(filepath=str(TAKE))
+        vertex = json.loads(POINTS.read_text(encoding="utf-8"))["points"]["8.4"]["vertex"]
+        before = {thing.name: evaluated(thing, 60) for thing in meshes()}
+        armature = bpy.data.objects["mien points of head"]
+        bone = armature.pose.bones["mien points 8.4"]
+        place = armature.matrix_world @ bone.bone.head_local
+        self.assertLess(numpy.abs(evaluated_at_rest(head)[vertex] - [place.x, place.z, -place.y]).max(), ROUNDING)
+        bone.location = bone.bone.matrix_local.to_3x3().inverted() @ mathutils.Vector((0.01, 0, 0))
+        moved = evaluated(head, 60) - before["head"]
+        self.assertLess(numpy.abs(moved[vertex] - [0.01, 0, 0]).max(), 1e-3)
+        self.assertLess(numpy.abs(moved[:, 1:]).max(), ROUNDING)
+        far = numpy.linalg.norm(before["head"] - before["head"][vertex], axis=1) > 0.15
+        self.assertLess(numpy.abs(moved[far]).max(), 1e-4)
+        bone.location = (0, 0, 0)
+        for thing in meshes():
+            self.assertLess(numpy.abs(evaluated(thing, 60) - before[thing.name]).max(), ROUNDING * size(thing))
 
 
 class Refusals(AddOnTest):

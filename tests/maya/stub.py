@@ -22,6 +22,7 @@ class Scene:
         self.frame, self.range = 1.0, (1.0, 24.0)
         self.up, self.rate = "y", "film"
         self.made, self.caches = 0, {}  # cache node -> what it was attached with
+        self.replays = {}  # cache node -> the attribute that marks it
         self.play = {}  # switch -> whether it plays
         self.windows = 0
         self.cancels_after = math.inf
@@ -87,10 +88,13 @@ class Scene:
         return [name for name, cache in self.caches.items() if cache["inAttr"] == node + ".inp[0]"] or None
 
     def attributeQuery(self, name, node, exists):
-        return name in self.shapes[node].attributes
+        return name in (self.shapes[node].attributes if node in self.shapes else self.replays.get(node, ()))
 
-    def addAttr(self, node, longName, dataType):
-        self.shapes[node].attributes[longName] = None
+    def addAttr(self, node, longName, dataType=None, attributeType=None):
+        if node in self.caches:
+            self.replays[node] = longName
+        else:
+            self.shapes[node].attributes[longName] = None
 
     def getAttr(self, name):
         node, attribute = name.split(".")
@@ -112,6 +116,7 @@ class Scene:
     def cacheFile(self, **flags):
         self.made += 1
         self.caches[f"cache{self.made}"] = flags
+        return f"cache{self.made}"
 
     def progressWindow(self, query=False, edit=False, endProgress=False, isCancelled=False, **_flags):
         self.windows += 0 if query or edit else -1 if endProgress else 1
