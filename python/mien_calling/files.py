@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the mien authors
-"""The files between a host and the program: a head as OBJ, its motion and its performance as MDD, its points as JSON.
+"""The files between a host and the program: a head as OBJ, its motion and its performance as MDD, its points and reports as JSON.
 
 Vertices are y up, as in glTF, and in the order of the host: the program keeps it.
 """
@@ -37,10 +37,9 @@ def write_obj(path: str, parts: typing.Sequence[Part]) -> None:
             first += len(part.positions) // 3
 
 
-def write_points(path: str, points: typing.Mapping[str, int]) -> None:
-    """Feature points by the numbers of their vertices in the OBJ, from 0."""
+def write_json(path: str, value: typing.Mapping[str, typing.Any]) -> None:
     with open(path, "w", encoding="utf-8") as file:
-        json.dump({"points": dict(points)}, file, indent=1)
+        json.dump(value, file, indent=1)
 
 
 def _big_endian(values: array.array) -> bytes:

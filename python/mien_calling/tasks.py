@@ -13,7 +13,7 @@ import tempfile
 import typing
 
 from . import program
-from .files import MddReader, MddWriter, Part, write_obj, write_points
+from .files import MddReader, MddWriter, Part, write_json, write_obj
 from .host import Head, Host, Matrix, Remembered, Timing
 from .program import MienError, Progress, Steps
 
@@ -35,7 +35,7 @@ def _points_file(host: Host, head: Head, folder: str) -> str:
     if chosen:
         return chosen
     path = os.path.join(folder, "points.json")
-    write_points(path, host.named_points(head))
+    write_json(path, {"points": host.named_points(head)})
     return path
 
 
@@ -162,6 +162,7 @@ def extract(host: Host) -> Steps:
         spaces = yield from _export_motion(host, head, neutral, motion)
         report = yield from program.running(mien, ["extract", motion, "--head", neutral, "--points", points, "--fps",
                                                    f"{host.frames_per_second():.9g}", "-o", table])
+        write_json(os.path.join(table, "report.json"), report)
         cache, made = os.path.join(work, "performance.mdd"), _made(work, "made")
         yield from program.running(
             mien, ["play", os.path.join(table, "face.fat"), os.path.join(table, "face.fap"), "-o", cache])

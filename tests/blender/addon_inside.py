@@ -226,6 +226,72 @@ class RigAndPerform(AddOnTest):
             self.assertLess(numpy.abs(evaluated(thing, 60) - before[thing.name]).max(), ROUNDING * size(thing))
 
 
+class Extract(AddOnTest):
+    """A head that a skin animates, its own motion too, on an object that turns and moves."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.animated = FOLDER / "animated.glb"
+        write("animate", HEAD, "--points", POINTS, "--take", TAKE, "--map", MAP, "--head-motion", "-o", cls.animated)
+
+    def animated_head(self):
+        head = self.load(self.animated)
+        bpy.context.scene.mien.points = str(POINTS)
+        bpy.context.scene.frame_start, bpy.context.scene.frame_end = 11, 82
+        stand = bpy.data.objects.new("stand", None)
+        bpy.context.scene.collection.objects.link(stand)
+        for thing in bpy.context.scene.objects:
+            if thing != stand and not thing.parent:
+                thing.parent = stand
+        for frame, turn, place in ((11, 0, (0, 0, 0)), (82, 0.2, (0.02, 0.05, 0.01))):
+            stand.rotation_euler[2], stand.location = turn, place
+            stand.keyframe_insert("rotation_euler", frame=frame)
+            stand.keyframe_insert("location", frame=frame)
+        return head
+
+    def eye_distance(self, head):
+        points = json.loads(POINTS.read_text(encoding="utf-8"))["points"]
+        by_name = {thing.data.name: evaluated_at_rest(thing) for thing in meshes()}
+        left, right = (by_name[points[point]["mesh"]][points[point]["vertex"]] for point in ("3.5", "3.6"))
+        return numpy.linalg.norm(left - right)
+
+    def played(self):
+        """Where all meshes are at some frames: frames x vertices x 3."""
+        frames = (11, 20, 38, 60, 82)
+        return numpy.array([numpy.vstack([evaluated(thing, frame) for thing in meshes()]) for frame in frames])
+
+    def assert_replays(self, before, eye_distance):
+        """All vertices are within the largest error that mien reported, and on average not much above its average."""
+        report = json.loads((self.out / "mien" / "head" / "mpeg4" / "report.json").read_text(encoding="utf-8"))
+        away = numpy.linalg.norm(self.played() - before, axis=2) / eye_distance
+        self.assertLess(away.max(), report["replay"]["max"] * 1.001 + ROUNDING * 10)
+        self.assertLess(away.mean(), report["replay"]["mean"] * 1.5 + ROUNDING * 10)
+        self.assertGreater(numpy.abs(before[3] - before[0]).max() / eye_distance, 0.1, "nothing moves, which shows nothing")
+
+    def test_an_animated_head_replays_what_was_extracted_within_the_error_that_is_told(self):
+        head = self.animated_head()
+        before, eye_distance = self.played(), self.eye_distance(head)
+        self.assertEqual(bpy.ops.mien.extract(), {"FINISHED"})
+        self.assertRegex(self.told().message, "head: extracted; the replay is .* % of the eye distance away")
+        kept = self.out / "mien" / "head" / "mpeg4"
+        self.assertTrue((kept / "face.fat").is_file() and (kept / "face.fap").is_file())
+        self.assert_replays(before, eye_distance)
+        self.assertEqual(bpy.context.scene.frame_current, 82)
+        once = self.everything()
+        bpy.ops.mien.extract()
+        self.assertEqual(self.everything(), once)
+        self.assert_replays(before, eye_distance)
+
+    def test_a_broken_points_file_leaves_an_animated_head_as_it_was(self):
+        self.animated_head()
+        before = self.played()
+        broken = self.out / "broken.json"
+        broken.write_text('{"points": {"8.4": {"mesh": "nobody", "vertex": 1}}}', encoding="utf-8")
+        bpy.context.scene.mien.points = str(broken)
+        self.assert_refused(bpy.ops.mien.extract, "broken.json: points /points/8.4/mesh: expected the name or number of a mesh")
+        self.assertTrue(numpy.array_equal(self.played(), before))
+
+
 class Refusals(AddOnTest):
     def test_a_broken_points_file_is_told_and_leaves_nothing_behind(self):
         self.load()
