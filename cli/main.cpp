@@ -60,6 +60,7 @@ int run(int argc, char** argv) {
     add_render(app, call);
     add_faps(app, call);
     add_play(app, call);
+    add_extract(app, call);
     add_encode(app, call);
     add_decode(app, call);
     add_fap(app, call);

@@ -53,6 +53,7 @@ void add_deform(CLI::App& app, Call& call);
 void add_render(CLI::App& app, Call& call);
 void add_faps(CLI::App& app, Call& call);
 void add_play(CLI::App& app, Call& call);
+void add_extract(CLI::App& app, Call& call);
 void add_encode(CLI::App& app, Call& call);
 void add_decode(CLI::App& app, Call& call);
 void add_fap(CLI::App& app, Call& call);

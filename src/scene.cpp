@@ -185,4 +185,37 @@ std::vector<Affine> joint_maps(const Scene& /*scene*/, const SceneSkin& skin, co
     return maps;
 }
 
+namespace {
+
+void add_morphs(const Surface& surface, std::span<const float> weights, std::span<Vec3f> positions) {
+    for (std::size_t t = 0; t < surface.morphs.size(); ++t) {
+        const MorphTarget& morph = surface.morphs[t];
+        if (weights[t] == 0) continue;
+        for (std::size_t i = 0; i < morph.vertices.size(); ++i)
+            positions[morph.vertices[i]] += weights[t] * morph.deltas[i];
+    }
+}
+
+// The place of vertex v as each of its joints would carry it, weighted (3.7.3.3).
+Vec3 skinned(const Surface& surface, const std::vector<Affine>& joints, std::size_t v, const Vec3& p) {
+    Vec3 sum;
+    for (std::size_t slot = v * surface.influences; slot < (v + 1) * surface.influences; ++slot)
+        if (surface.weights[slot] > 0) sum += double{surface.weights[slot]} * moved(joints[surface.joints[slot]], p);
+    return sum;
+}
+
+}  // namespace
+
+void surface_positions(const Scene& scene, const Surface& surface, const ScenePose& pose, std::span<Vec3f> positions) {
+    std::copy(surface.positions.begin(), surface.positions.end(), positions.begin());
+    add_morphs(surface, pose.morph_weights[surface.node], positions);
+    if (!surface.skin) {
+        for (Vec3f& p : positions) p = to_float(moved(pose.worlds[surface.node], to_double(p)));
+        return;
+    }
+    const std::vector<Affine> joints = joint_maps(scene, scene.skins[*surface.skin], pose);
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        positions[v] = to_float(skinned(surface, joints, v, to_double(positions[v])));
+}
+
 }  // namespace mien

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@
 namespace mien {
 
 /// How vertices move with the value of one parameter: FaceDefMesh of ISO/IEC 14496-1. The offset is piecewise linear in
-/// the value and zero at zero; beyond the outermost borders the outermost interval goes on.
+/// the value and zero at zero; beyond the outermost borders the outermost interval goes on. Below zero the value is
+/// negative and so is every step through an interval: a linear table has one vector on both sides of zero.
 struct FaceDefMesh {
     std::vector<std::int32_t> borders;    ///< FAP units, ascending, two or more, one of them 0
     std::vector<std::uint32_t> vertices;  ///< ascending; indices into the positions of the head
@@ -25,8 +27,8 @@ struct FaceDefMesh {
 /// What a FaceDefTransform changes of its node.
 enum class TransformField { translation, rotation, scale };
 
-/// How a part of the head moves as a whole with the value f of one parameter: FaceDefTransform of ISO/IEC 14496-1.
-/// Turns and scales are about the node's centre.
+/// How a part of the head moves as a whole with the value of one parameter: FaceDefTransform of ISO/IEC 14496-1. Turns
+/// and scales are about the node's centre.
 struct FaceDefTransform {
     std::uint32_t node = 0;  ///< index into `Fat::nodes`
     TransformField field = TransformField::rotation;
@@ -43,7 +45,8 @@ struct FatNode {
     Vec3 centre;                          ///< in the head's unit
 };
 
-/// All that one parameter moves, or one viseme (FAP 1) or expression (FAP 2): FaceDefTables of ISO/IEC 14496-1.
+/// All that one parameter moves, or one viseme (FAP 1) or expression (FAP 2): FaceDefTables of ISO/IEC 14496-1. The
+/// value of a viseme is its share of the blend in 63rds, that of an expression its intensity, 0 to 63.
 struct FaceDefTables {
     int fap = 0;                ///< 1 to 68
     int high_level_select = 0;  ///< for FAPs 1 and 2: which viseme or expression, from 1; else 0
@@ -52,10 +55,16 @@ struct FaceDefTables {
 };
 
 /// A face animation table: how every vertex of one head follows the parameters. Offsets of all parameters add, and all
-/// act on the neutral head; transforms act after them, in the order of the tables, translations last.
+/// act on the neutral head. Transforms act after them, one node after the other: what a node did goes on with one that
+/// holds it, so an eyeball comes before the head. At one node the scale comes first, then turns, then the translation;
+/// turns are by the parameters of roll first, pitch then and yaw last, as those of the head are; others come before.
 struct Fat {
     std::vector<FatNode> nodes;
     std::vector<FaceDefTables> tables;  ///< ascending by (fap, high_level_select), each pair once
 };
+
+/// Throws Error unless the table is what the comments here say and fits a head of so many vertices: indices in range
+/// and ascending, borders ascending with one zero, a vector per vertex and interval, finite numbers, axes of length 1.
+void check_fat(const Fat& fat, std::size_t vertices);
 
 }  // namespace mien

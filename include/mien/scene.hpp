@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,9 @@ ScenePose pose_at(const Scene& scene, double time);
 
 /// The scene as its file shows it when nothing plays.
 ScenePose rest_pose(const Scene& scene);
+
+/// Where the surface's vertices are in the scene's space, into `positions` (one per vertex).
+void surface_positions(const Scene& scene, const Surface& surface, const ScenePose& pose, std::span<Vec3f> positions);
 
 /// The map of each of the skin's joints: from the mesh's space at rest to the scene's.
 std::vector<Affine> joint_maps(const Scene& scene, const SceneSkin& skin, const ScenePose& pose);

@@ -15,11 +15,10 @@
 #include <string_view>
 
 #include "algorithms/area_vector.hpp"
+#include "algorithms/face_regions.hpp"
 #include "algorithms/margins.hpp"
-#include "algorithms/regions.hpp"
 
 #include "mien/algorithms/deform.hpp"
-#include "mien/algorithms/partial.hpp"
 #include "mien/error.hpp"
 
 namespace mien {
@@ -28,9 +27,6 @@ namespace {
 
 constexpr double least_motion = 0.002;  // in eye distances
 constexpr std::size_t places_along_a_slit = 19;
-constexpr std::array<std::string_view, 8> region_names{"mouth", "jaw",  "brows",  "lids",
-                                                       "eyes",  "nose", "cheeks", "rest"};
-constexpr std::size_t eyes_region = 4, rest_region = 7;
 
 using Positions = std::vector<Vec3f>;
 
@@ -44,37 +40,16 @@ struct Ground {
     const Face& face;
     Weld weld;
     double eyes = 1;
-    std::vector<std::size_t> region;  // one per vertex: index into region_names
+    std::vector<std::size_t> region;  // one per vertex
     std::vector<Slit> slits;
 };
-
-// The region of each feature point.
-std::vector<std::size_t> regions_of(std::span<const FeaturePoint> points) {
-    Take names;
-    for (const FeaturePoint& point : points) names.points.push_back(point.id);
-    std::vector<std::size_t> regions(points.size(), rest_region);
-    for (std::size_t r = 0; r < rest_region; ++r)
-        for (const std::size_t c : part_columns(names, region_names[r])) regions[c] = r;
-    return regions;
-}
-
-std::vector<std::size_t> vertex_regions(const Face& face, const Weld& weld, const EdgeGraph& graph, const Rig& rig) {
-    std::vector<std::uint32_t> seeds;
-    for (const FeaturePoint& point : face.points) seeds.push_back(weld.place[point.vertex]);
-    const std::vector<std::uint32_t> nearest = regions_by_distance(graph, seeds);
-    const std::vector<std::size_t> of_point = regions_of(face.points);
-    std::vector<std::size_t> regions;
-    for (const std::uint32_t place : weld.place)
-        regions.push_back(nearest[place] == no_region ? rest_region : of_point[nearest[place]]);
-    for (const Eyeball& eyeball : rig.eyeballs)
-        for (const std::uint32_t v : eyeball.vertices) regions[v] = eyes_region;
-    return regions;
-}
 
 Ground ground_of(const Face& face, const Rig& rig) {
     Ground ground{face, weld(face.mesh), eye_distance(face.points), {}, {}};
     const EdgeGraph graph = edge_graph(face.mesh, ground.weld);
-    ground.region = vertex_regions(face, ground.weld, graph, rig);
+    ground.region = vertex_regions(face, ground.weld, graph);
+    for (const Eyeball& eyeball : rig.eyeballs)
+        for (const std::uint32_t v : eyeball.vertices) ground.region[v] = eyes_region;
     for (Margin& margin : find_margins(face, ground.weld, graph)) {
         std::vector<Opposite> places = opposite_places(margin, face, ground.weld, places_along_a_slit);
         ground.slits.push_back({std::move(margin), std::move(places)});

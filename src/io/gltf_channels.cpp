@@ -83,29 +83,27 @@ std::string obstacle(const std::string& path, const Node& node) {
 
 }  // namespace
 
-std::vector<Channel> read_channels(const GltfDocument& document, std::span<const Node> nodes,
-                                   std::span<const std::uint32_t> numbers, ReadBudget& budget,
-                                   std::vector<std::string>& left_out) {
+std::vector<Channel> read_channels(const GltfDocument& document, std::size_t number, DocumentScene& read) {
+    const std::string at = fmt::format("/animations/{}", number);
+    const json& animation = array_member(document.json, "animations", "")[number];
+    const json& all = array_member(animation, "channels", at);
+    const json& samplers = array_member(animation, "samplers", at);
+    const std::vector<Node>& nodes = read.scene.nodes;
     std::vector<Channel> channels;
-    const json& animations = array_member(document.json, "animations", "");
-    if (animations.empty()) return channels;
-    const json& animation = animations[0];
-    const json& all = array_member(animation, "channels", "/animations/0");
-    const json& samplers = array_member(animation, "samplers", "/animations/0");
     for (std::size_t c = 0; c < all.size(); ++c) {
-        const std::string pointer = fmt::format("/animations/0/channels/{}", c), below = pointer + "/target";
+        const std::string pointer = fmt::format("{}/channels/{}", at, c), below = pointer + "/target";
         const json& target = object_member(all[c], "target", pointer);
         const auto node = find_whole(target, "node", below);
         const std::string path = text_member(target, "path", below);
-        const std::string why = node ? obstacle(path, nodes[numbers[*node]]) : "it has no node";
+        const std::string why = node ? obstacle(path, nodes[read.node_numbers[*node]]) : "it has no node";
         if (!why.empty()) {
-            left_out.push_back(fmt::format("channel {} of the animation: {}", c, why));
+            read.scene.left_out.push_back(fmt::format("channel {} of the animation: {}", c, why));
             continue;
         }
-        Channel channel{numbers[*node], *property_of(path), Between::linear, {}, {}};
+        Channel channel{read.node_numbers[*node], *property_of(path), Between::linear, {}, {}};
         const std::size_t sampler = whole_member(all[c], "sampler", pointer);
-        read_sampler(document, samplers[sampler], fmt::format("/animations/0/samplers/{}", sampler),
-                     width_of(channel.property, nodes[channel.node]), budget, channel);
+        read_sampler(document, samplers[sampler], fmt::format("{}/samplers/{}", at, sampler),
+                     width_of(channel.property, nodes[channel.node]), read.budget, channel);
         if (!channel.times.empty()) channels.push_back(std::move(channel));
     }
     return channels;

@@ -4,21 +4,17 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
-#include <string>
 #include <vector>
 
-#include "io/gltf_primitive.hpp"
+#include "io/gltf_scene.hpp"
 
 #include "mien/scene.hpp"
 
 namespace mien {
 
-/// The channels of the document's first animation, taken out of the budget. `nodes`: those of the scene, with as many
-/// weights as they have morph targets; `numbers`: for each node of the document its number among them. What cannot be
-/// played is said in `left_out`. Throws Error naming the JSON pointer, expected and found.
-std::vector<Channel> read_channels(const GltfDocument& document, std::span<const Node> nodes,
-                                   std::span<const std::uint32_t> numbers, ReadBudget& budget,
-                                   std::vector<std::string>& left_out);
+/// The channels of the document's animation number `number`, which it has to have, for the nodes that were `read` from
+/// it; taken out of the budget. What cannot be played is said in `left_out` of the scene. Throws Error naming the JSON
+/// pointer, expected and found.
+std::vector<Channel> read_channels(const GltfDocument& document, std::size_t number, DocumentScene& read);
 
 }  // namespace mien

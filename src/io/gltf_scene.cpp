@@ -4,6 +4,8 @@
 // A glTF 2.0 document as a scene. Only what the scene that is opened first shows is read; of materials and pictures
 // only what is used.
 
+#include "io/gltf_scene.hpp"
+
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -35,6 +37,7 @@ using nlohmann::json;
 // The scene while it grows.
 struct Growing {
     const GltfDocument& document;
+    Looks looks;
     Scene scene;
     ReadBudget budget;
     Pictures pictures;
@@ -94,7 +97,8 @@ void add_skins(Growing& out) {
 }
 
 std::uint32_t material_of(Growing& out, const Primitive& primitive) {
-    const auto number = find_accessor(*primitive.value, "material", primitive.pointer);
+    const auto number =
+        out.looks == Looks::read ? find_accessor(*primitive.value, "material", primitive.pointer) : std::nullopt;
     const auto [known, is_new] = out.material_numbers.emplace(number, static_cast<std::uint32_t>(out.materials.size()));
     if (!is_new) return known->second;
     out.materials.push_back(number ? read_material(out.pictures, *number)
@@ -208,22 +212,27 @@ void name_the_rest(Growing& out) {
 
 }  // namespace
 
-Scene parse_scene(std::span<const std::byte> bytes, const Fetch& fetch) {
-    const GltfDocument document = load_plain_gltf(bytes, fetch);
+DocumentScene read_document_scene(const GltfDocument& document, Looks looks) {
     const ReadBudget budget = read_budget(document.binary.size());
-    Growing out{document, {}, budget, Pictures(document), {}, {}, {}, budget.vertices, 0};
+    Growing out{document, looks, {}, budget, Pictures(document), {}, {}, {}, budget.vertices, 0};
     const SceneNodes tree = scene_nodes(document);
     out.scene.left_out = document.left_out;
     add_nodes(out, tree);
     add_skins(out);
     const std::vector<std::vector<Place>> places = places_of(out, tree);
     for (std::size_t m = 0; m < places.size(); ++m) add_mesh(out, m, places[m]);
-    out.scene.channels = read_channels(document, out.scene.nodes, out.node_numbers, out.budget, out.scene.left_out);
     for (DocumentMaterial& material : out.materials) out.scene.materials.push_back(std::move(material.material));
     out.scene.pictures = std::move(out.pictures.read);
     out.scene.left_out.insert(out.scene.left_out.end(), out.pictures.left_out.begin(), out.pictures.left_out.end());
     name_the_rest(out);
-    return std::move(out.scene);
+    return {std::move(out.scene), std::move(out.node_numbers), out.budget};
+}
+
+Scene parse_scene(std::span<const std::byte> bytes, const Fetch& fetch) {
+    const GltfDocument document = load_plain_gltf(bytes, fetch);
+    DocumentScene read = read_document_scene(document, Looks::read);
+    if (element_count(document.json, "animations") > 0) read.scene.channels = read_channels(document, 0, read);
+    return std::move(read.scene);
 }
 
 }  // namespace mien

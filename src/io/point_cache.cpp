@@ -8,12 +8,15 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <limits>
+#include <memory>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/text.hpp"
@@ -81,6 +84,135 @@ void format_pc2(const MeshSequence& sequence, std::ostream& out) {
     put(header, count(sequence.times.size(), "rows"), Order::little);
     write_out(out, header);
     put_rows(sequence, out, Order::little);
+}
+
+namespace {
+
+// The bytes of a cache as numbers: a header, then the rows.
+struct Cache {
+    std::string_view format;
+    Order order = Order::big;
+    std::vector<std::byte> bytes;
+    std::size_t rows_at = 0;  // where the first row begins
+
+    [[nodiscard]] std::uint32_t word(std::size_t at) const {
+        std::uint32_t result = 0;
+        for (unsigned i = 0; i < 4; ++i) {
+            const unsigned shift = 8 * (order == Order::big ? 3 - i : i);
+            result |= std::to_integer<std::uint32_t>(bytes[at + i]) << shift;
+        }
+        return result;
+    }
+    [[nodiscard]] float number(std::size_t at) const { return std::bit_cast<float>(word(at)); }
+    [[nodiscard]] Vec3f position(std::size_t at) const { return {number(at), number(at + 4), number(at + 8)}; }
+
+    [[noreturn]] void fail(std::size_t at, std::string_view expected, std::string_view found) const {
+        throw Error(fmt::format("{} byte {}: expected {}, found {}", format, at, expected, found));
+    }
+};
+
+// A count, which is signed in the file.
+std::uint32_t count_at(const Cache& cache, std::size_t at, std::string_view what) {
+    const auto n = static_cast<std::int32_t>(cache.word(at));
+    if (n < 1) cache.fail(at, fmt::format("one {} or more", what), std::to_string(n));
+    return static_cast<std::uint32_t>(n);
+}
+
+void need_header(const Cache& cache, std::size_t size) {
+    if (cache.bytes.size() < size) cache.fail(cache.bytes.size(), fmt::format("a header of {} bytes", size), "the end");
+}
+
+constexpr std::size_t position_size = 3 * sizeof(float);
+
+// What stands in the counts against the bytes that are there: no count is believed before. Up to 2^31 rows of 2^31
+// vertices of 12 bytes stay under 2^66, so rows are divided instead of multiplied.
+void check_counts(const Cache& cache, std::uint32_t rows, std::uint32_t vertices, std::size_t vertices_at,
+                  const Mesh& head) {
+    if (vertices != vertex_count(head))
+        cache.fail(vertices_at, fmt::format("{} vertices as the head has", vertex_count(head)),
+                   std::to_string(vertices));
+    const std::uint64_t row_size = std::uint64_t{vertices} * position_size;
+    const std::uint64_t there = cache.bytes.size() < cache.rows_at ? 0 : cache.bytes.size() - cache.rows_at;
+    if (cache.bytes.size() < cache.rows_at || there % row_size != 0 || there / row_size != rows)
+        cache.fail(cache.bytes.size(),
+                   fmt::format("the end after {} rows of {} vertices from byte {} on", rows, vertices, cache.rows_at),
+                   fmt::format("a file of {} bytes", cache.bytes.size()));
+}
+
+void check_numbers(const Cache& cache) {
+    for (std::size_t at = cache.rows_at; at < cache.bytes.size(); at += sizeof(float))
+        if (!std::isfinite(cache.number(at))) cache.fail(at, "a finite number", std::to_string(cache.number(at)));
+}
+
+void check_rate(std::string_view format, double rate) {
+    if (!std::isfinite(rate) || rate < 0)
+        throw Error(fmt::format("{}: expected a number of rows per second above 0, found {}", format, rate));
+}
+
+std::vector<double> even_times(std::size_t rows, double rate) {
+    std::vector<double> times(rows);
+    for (std::size_t row = 0; row < rows; ++row) times[row] = static_cast<double>(row) / rate;
+    return times;
+}
+
+// The times of an MDD, seconds from the first.
+std::vector<double> own_times(const Cache& cache, std::size_t rows) {
+    constexpr std::size_t first = 8;
+    std::vector<double> times(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t at = first + row * sizeof(float);
+        const double time = double{cache.number(at)} - double{cache.number(first)};
+        if (!std::isfinite(time) || (row > 0 && time <= times[row - 1]))
+            cache.fail(at, row == 0 ? "a finite time" : "a time above that of the row before, or rows per second given",
+                       fmt::format("{}", cache.number(at)));
+        times[row] = time;
+    }
+    return times;
+}
+
+MeshSequence rows_of(Cache cache, Mesh head, std::vector<double> times) {
+    check_numbers(cache);
+    const auto shared = std::make_shared<const Cache>(std::move(cache));
+    return {std::move(head), std::move(times), [shared](std::size_t row, std::span<Vec3f> positions) {
+                std::size_t at = shared->rows_at + row * positions.size() * position_size;
+                for (Vec3f& p : positions) {
+                    p = shared->position(at);
+                    at += position_size;
+                }
+            }};
+}
+
+}  // namespace
+
+MeshSequence parse_mdd(std::vector<std::byte> bytes, Mesh head, double rate) {
+    constexpr std::size_t header = 8;
+    check_rate("mdd", rate);
+    Cache cache{"mdd", Order::big, std::move(bytes)};
+    need_header(cache, header);
+    const std::uint32_t rows = count_at(cache, 0, "row"), vertices = count_at(cache, 4, "vertex");
+    cache.rows_at = header + std::size_t{rows} * sizeof(float);
+    check_counts(cache, rows, vertices, 4, head);
+    std::vector<double> times = rate > 0 ? even_times(rows, rate) : own_times(cache, rows);
+    return rows_of(std::move(cache), std::move(head), std::move(times));
+}
+
+MeshSequence parse_pc2(std::vector<std::byte> bytes, Mesh head, double rate) {
+    using namespace std::string_view_literals;
+    constexpr std::string_view magic = "POINTCACHE2\0"sv;
+    constexpr std::size_t version_at = 12, vertices_at = 16, step_at = 24, rows_at = 28, header = 32;
+    check_rate("pc2", rate);
+    Cache cache{"pc2", Order::little, std::move(bytes), header};
+    need_header(cache, header);
+    if (as_text(cache.bytes).substr(0, magic.size()) != magic)
+        cache.fail(0, "\"POINTCACHE2\"", shown(as_text(cache.bytes).substr(0, magic.size())));
+    if (cache.word(version_at) != 1) cache.fail(version_at, "version 1", std::to_string(cache.word(version_at)));
+    const std::uint32_t rows = count_at(cache, rows_at, "row"), vertices = count_at(cache, vertices_at, "vertex");
+    const double step = cache.number(step_at);
+    if (!std::isfinite(step) || step <= 0)
+        cache.fail(step_at, "a number of frames per row above 0", fmt::format("{}", step));
+    check_counts(cache, rows, vertices, vertices_at, head);
+    if (rate == 0) throw Error("pc2: it counts in frames; expected the frames per second to be given, found none");
+    return rows_of(std::move(cache), std::move(head), even_times(rows, rate / step));
 }
 
 namespace {

@@ -15,17 +15,20 @@
 #include <memory>
 #include <system_error>
 
+#include "io/frame_folder.hpp"
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
 #include "mien/io/c3d.hpp"
 #include "mien/io/fap_text.hpp"
+#include "mien/io/fdp_json.hpp"
 #include "mien/io/fit.hpp"
 #include "mien/io/marker_map.hpp"
 #include "mien/io/measured_points.hpp"
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
 #include "mien/io/ply.hpp"
+#include "mien/io/point_cache.hpp"
 #include "mien/io/scene.hpp"
 #include "mien/io/take_csv.hpp"
 #include "mien/io/trc.hpp"
@@ -61,6 +64,11 @@ Bytes read_bytes(const fs::path& path) {
     return bytes;
 }
 
+// An error of a parser, behind the file's name.
+[[noreturn]] void fail_in(const fs::path& path, const Error& error) {
+    throw Error(fmt::format("{}: {}", path.string(), error.what()), error.kind());
+}
+
 // Reads the file and parses it, with its name before whatever the parser has to say.
 template <class Parse>
 auto parsed(const fs::path& path, const Parse& parse) {
@@ -68,7 +76,7 @@ auto parsed(const fs::path& path, const Parse& parse) {
     try {
         return parse(std::span<const std::byte>(bytes));
     } catch (const Error& error) {
-        throw Error(fmt::format("{}: {}", path.string(), error.what()), error.kind());
+        fail_in(path, error);
     }
 }
 
@@ -150,6 +158,32 @@ ParseMesh mesh_parser(const fs::path& path) {
     return [fetch = beside(path)](std::span<const std::byte> bytes) { return parse_gltf(bytes, fetch); };
 }
 
+// Rows are worked out later, and an error of theirs is the file's as well.
+MeshSequence named(const fs::path& path, MeshSequence sequence) {
+    sequence.positions = [path, row_of = std::move(sequence.positions)](std::size_t row, std::span<Vec3f> positions) {
+        try {
+            row_of(row, positions);
+        } catch (const Error& error) {
+            fail_in(path, error);
+        }
+    };
+    return sequence;
+}
+
+using ParseCache = MeshSequence (*)(Bytes, Mesh, double);
+MeshSequence read_cache(const fs::path& path, const SequenceOptions& options, ParseCache parse) {
+    if (options.head.empty())
+        throw Error(
+            fmt::format("{}: it holds positions alone; expected the head they belong to, found none", path.string()));
+    Mesh head = read_mesh(options.head);
+    Bytes bytes = read_bytes(path);
+    try {
+        return parse(std::move(bytes), std::move(head), options.rate);
+    } catch (const Error& error) {
+        fail_in(path, error);
+    }
+}
+
 }  // namespace
 
 Mesh read_mesh(const fs::path& path) {
@@ -166,6 +200,22 @@ Scene read_scene(const fs::path& path) {
     return parsed(path, [&](std::span<const std::byte> bytes) {
         return is_gltf(path) ? parse_scene(bytes, beside(path)) : scene_of(parse(bytes));
     });
+}
+
+MeshSequence read_sequence(const fs::path& path, const SequenceOptions& options) {
+    std::error_code unknown;
+    if (fs::is_directory(path, unknown)) return read_frames(path, options.rate);
+    if (has_extension(path, ".mdd")) return read_cache(path, options, parse_mdd);
+    if (has_extension(path, ".pc2")) return read_cache(path, options, parse_pc2);
+    if (!is_gltf(path)) unknown_extension(path, ".glb, .gltf, .mdd or .pc2, or a folder");
+    return named(path, parsed(path, [&](std::span<const std::byte> bytes) {
+                     return parse_gltf_sequence(bytes, beside(path), options);
+                 }));
+}
+
+std::vector<Animation> read_animations(const fs::path& path) {
+    if (!is_gltf(path)) unknown_extension(path, ".glb or .gltf");
+    return parsed(path, [&](std::span<const std::byte> bytes) { return parse_gltf_animations(bytes, beside(path)); });
 }
 
 Take read_take(const fs::path& path) {
@@ -202,6 +252,14 @@ Face read_face(const fs::path& head, const fs::path& points) {
 std::vector<Rename> read_marker_map(const fs::path& path) {
     if (!has_extension(path, ".csv") && !has_extension(path, ".json")) unknown_extension(path, ".csv or .json");
     return parsed(path, parse_marker_map);
+}
+
+Fdp read_fdp(const fs::path& path, const FdpTextOptions& options) {
+    if (has_extension(path, ".json")) return parsed(path, parse_fdp_json);
+    for (const std::string_view extension : {".fat", ".bt", ".fdp", ".fapu"})
+        if (has_extension(path, extension))
+            return parsed(path, [&](std::span<const std::byte> bytes) { return parse_fdp_text(bytes, options); });
+    unknown_extension(path, ".fat, .bt, .fdp, .fapu or .json");
 }
 
 RigFile read_rig(const fs::path& path) {

@@ -18,6 +18,8 @@
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
+#include "mien/io/fdp_json.hpp"
+#include "mien/io/fdp_text.hpp"
 #include "mien/io/point_cache.hpp"
 #include "mien/io/take_csv.hpp"
 #include "mien/io/trc.hpp"
@@ -88,25 +90,50 @@ bool is_frame(const fs::directory_entry& entry, std::string_view back) {
            fs::is_regular_file(entry.symlink_status(error));
 }
 
-// Only a folder that holds nothing but frames is replaced: a mistyped path must not cost a home directory.
-void refuse_other_folder(const fs::path& path, std::string_view extension) {
+// Only a folder that holds nothing but its own kind of files is replaced: a mistyped path must not cost a home
+// directory.
+template <class IsOurs>
+void refuse_other_folder(const fs::path& path, const std::string& kind, const IsOurs& is_ours) {
     if (!is_there(path)) return;
-    if (!is_folder(path))
-        cannot_write(path, fmt::format("it is a file; expected a folder of {} frames or nothing", extension));
+    if (!is_folder(path)) cannot_write(path, fmt::format("it is a file; expected a folder of {} or nothing", kind));
     std::error_code error;
     for (auto entry = fs::directory_iterator(path, error); entry != fs::directory_iterator(); entry.increment(error))
-        if (!is_frame(*entry, extension))
-            cannot_write(path, fmt::format("the folder holds other files than {} and so on", frame_name(0, extension)));
+        if (!is_ours(*entry)) cannot_write(path, fmt::format("the folder holds other files than {}", kind));
     if (error) cannot_write(path, error.message());
 }
 
-void fill_folder(const fs::path& folder, const fs::path& target, const Frames& frames) {
+void create_folder(const fs::path& folder, const fs::path& target) {
     std::error_code error;
     if (!fs::create_directory(folder, error)) cannot_write(target, error ? error.value() : EEXIST);
+}
+
+void fill_folder(const fs::path& folder, const fs::path& target, const Frames& frames) {
+    create_folder(folder, target);
     for (std::size_t row = 0; row < frames.count; ++row)
         fill_file(folder / frame_name(row, frames.extension), target,
                   [&](std::ostream& out) { frames.write(row, out); });
     synchronize(folder, target);
+}
+
+void fill_folder(const fs::path& folder, const fs::path& target, std::span<const NamedFile> files) {
+    create_folder(folder, target);
+    for (const NamedFile& file : files)
+        fill_file(folder / file.name, target, [&](std::ostream& out) { out << file.bytes; });
+    synchronize(folder, target);
+}
+
+// The new folder in the place of the old one, which goes when that is done.
+template <class Files>
+void replace_folder(const fs::path& path, const Files& files, const WriteOptions& options) {
+    const Temporary temporary(path, options.overwrite);
+    fill_folder(temporary.path(), path, files);
+    if (!is_there(path)) return temporary.move_to_target();
+    fs::path aside = temporary.path();
+    aside += "-old";
+    if (std::rename(path.c_str(), aside.c_str()) != 0) cannot_write(path, errno);
+    temporary.move_to_target();
+    std::error_code ignored;
+    fs::remove_all(aside, ignored);
 }
 
 Frames obj_frames(const MeshSequence& sequence, std::vector<Vec3f>& positions) {
@@ -128,22 +155,41 @@ void write_file(const fs::path& path, std::span<const std::byte> bytes, const Wr
 // An old folder of frames steps aside and is removed at the end; a folder cannot be renamed over a full one.
 void write_folder(const Frames& frames, const fs::path& path, const WriteOptions& options) {
     refuse_existing(path, options.overwrite);
-    refuse_other_folder(path, frames.extension);
-    const Temporary temporary(path, options.overwrite);
-    fill_folder(temporary.path(), path, frames);
-    if (!is_there(path)) return temporary.move_to_target();
-    fs::path aside = temporary.path();
-    aside += "-old";
-    if (std::rename(path.c_str(), aside.c_str()) != 0) cannot_write(path, errno);
-    temporary.move_to_target();
-    std::error_code ignored;
-    fs::remove_all(aside, ignored);
+    refuse_other_folder(path, fmt::format("{} and so on", frame_name(0, frames.extension)),
+                        [&](const fs::directory_entry& entry) { return is_frame(entry, frames.extension); });
+    replace_folder(path, frames, options);
+}
+
+void write_folder(std::span<const NamedFile> files, const fs::path& path, const WriteOptions& options) {
+    refuse_existing(path, options.overwrite);
+    std::string kind;
+    for (const NamedFile& file : files) kind += (kind.empty() ? "" : ", ") + file.name;
+    refuse_other_folder(path, kind, [&](const fs::directory_entry& entry) {
+        std::error_code error;
+        return fs::is_regular_file(entry.symlink_status(error)) &&
+               std::any_of(files.begin(), files.end(),
+                           [&](const NamedFile& file) { return entry.path().filename() == file.name; });
+    });
+    replace_folder(path, files, options);
 }
 
 void write(const Take& take, const fs::path& path, const WriteOptions& options) {
     if (has_extension(path, ".csv")) return write_file(path, as_bytes(format_take_csv(take)), options);
     if (has_extension(path, ".trc")) return write_file(path, as_bytes(format_trc(take)), options);
     unknown_extension(path, ".csv or .trc");
+}
+
+void write(const Fdp& fdp, const fs::path& path, const WriteOptions& options) {
+    if (has_extension(path, ".json")) return write_file(path, as_bytes(format_fdp_json(fdp)), options);
+    if (has_extension(path, ".fat") || has_extension(path, ".bt"))
+        return write_file(path, as_bytes(format_fdp_text(fdp)), options);
+    const bool points = has_extension(path, ".fdp");
+    if (!points && !has_extension(path, ".fapu")) unknown_extension(path, ".fat, .bt, .fdp, .fapu or .json");
+    Fdp part;
+    part.fapu = fdp.fapu;
+    part.mesh.unit = fdp.mesh.unit;
+    if (points) part.points = fdp.points;
+    write_file(path, as_bytes(format_fdp_text(part)), options);
 }
 
 void write(const MeshSequence& sequence, const fs::path& path, const WriteOptions& options) {

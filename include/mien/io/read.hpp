@@ -10,9 +10,12 @@
 #include "mien/face.hpp"
 #include "mien/fap_interpolation.hpp"
 #include "mien/io/fba.hpp"
+#include "mien/io/fdp_text.hpp"
 #include "mien/io/gltf.hpp"
 #include "mien/io/points.hpp"
+#include "mien/io/sequence.hpp"
 #include "mien/measured_point.hpp"
+#include "mien/mesh_sequence.hpp"
 #include "mien/scene.hpp"
 #include "mien/take.hpp"
 
@@ -26,6 +29,17 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// Reads what a file shows by its extension, as `read_mesh` does: `parse_scene` for .glb and .gltf, `scene_of` for the
 /// others.
 Scene read_scene(const std::filesystem::path& path);
+
+/// Reads an animated head by its extension: .glb .gltf .fbx, .mdd and .pc2 with a head, or a folder of OBJ or PLY
+/// files, one a row in the natural order of their names ("frame_9" before "frame_10"). What is read from glTF and FBX
+/// is worked out when a row is asked for, positions of caches and folders are kept in memory.
+///
+/// Throws Error whose sentence starts with the file's name: as the parsers of mien/io/sequence.hpp do, and for a folder
+/// whose files differ in their vertices or faces.
+MeshSequence read_sequence(const std::filesystem::path& path, const SequenceOptions& options = {});
+
+/// What a file of animated heads holds (.glb .gltf .fbx), one entry per animation; none where nothing moves.
+std::vector<Animation> read_animations(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv .c3d.
 Take read_take(const std::filesystem::path& path);
@@ -47,6 +61,9 @@ Face read_face(const std::filesystem::path& head, const std::filesystem::path& p
 
 /// Reads a marker map for `rename_points`: .csv or .json.
 std::vector<Rename> read_marker_map(const std::filesystem::path& path);
+
+/// Reads a face definition by its extension: .fat .bt .fdp .fapu (BIFS text) .json. The options are for BIFS text.
+Fdp read_fdp(const std::filesystem::path& path, const FdpTextOptions& options = {});
 
 /// Reads a rig file written by mien.
 RigFile read_rig(const std::filesystem::path& path);

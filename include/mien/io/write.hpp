@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "mien/fdp.hpp"
 #include "mien/mesh_sequence.hpp"
 #include "mien/take.hpp"
 
@@ -36,8 +37,22 @@ struct Frames {
 /// but such frames.
 void write_folder(const Frames& frames, const std::filesystem::path& path, const WriteOptions& options = {});
 
+/// A file of a folder.
+struct NamedFile {
+    std::string name;  ///< without any folder
+    std::string bytes;
+};
+
+/// Writes a folder that holds these files and nothing else, as a whole or not at all. A folder is replaced only when it
+/// holds nothing but files of these names.
+void write_folder(std::span<const NamedFile> files, const std::filesystem::path& path,
+                  const WriteOptions& options = {});
+
 /// Writes a take by its extension: .csv .trc.
 void write(const Take& take, const std::filesystem::path& path, const WriteOptions& options = {});
+
+/// Writes a face definition by its extension: .fat .bt .json all of it, .fdp its points and units, .fapu its units.
+void write(const Fdp& fdp, const std::filesystem::path& path, const WriteOptions& options = {});
 
 /// Writes a baked motion by its extension: .mdd, .pc2, or a folder of frame_000001.obj ... when the path has no
 /// extension. A folder is replaced only when it holds nothing but such frames.
