@@ -220,8 +220,11 @@ class RigAndPerform(AddOnTest):
         self.assertLess(numpy.abs(evaluated_at_rest(head)[vertex] - [place.x, place.z, -place.y]).max(), ROUNDING)
 
         rig, take = self.out / "mien" / "head" / "rig.glb", self.out / "one.csv"
-        x, y, z = evaluated_at_rest(head)[vertex]
-        take.write_text(f"time,8.4.x,8.4.y,8.4.z\n0,{x},{y},{z}\n1,{x + 0.01},{y},{z}\n", encoding="utf-8")
+        points = gltf(rig)["extensions"]["MIEN_rig"]["points"]
+        rows = [[second, *(value + 0.01 * second * (point["id"] == "8.4" and axis == 0)
+                           for point in points for axis, value in enumerate(point["position"]))] for second in (0, 1)]
+        names = ["time", *(f"{point['id']}.{axis}" for point in points for axis in "xyz")]
+        take.write_text("\n".join(",".join(map(str, row)) for row in (names, *rows)) + "\n", encoding="utf-8")
         allowed = json.loads(run("deform", rig, take, "-o", self.out / "one.glb", "--json").stdout)["influence_cut"]["max_error"]
         write("deform", rig, take, "-o", self.out / "one.mdd")
         _times, exact = read_mdd(self.out / "one.mdd")
@@ -230,7 +233,7 @@ class RigAndPerform(AddOnTest):
         wanted = (exact[1] - exact[0])[:len(moved)]
         self.assertGreater(wanted[vertex, 0], 0.0099)
         self.assertLess(numpy.linalg.norm(moved - wanted, axis=1).max(), allowed + 10 * ROUNDING * size(head))
-        self.assertLess(allowed, 0.002)
+        self.assertLess(allowed, 0.004)
 
 
 class Extract(AddOnTest):
