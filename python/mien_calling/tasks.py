@@ -152,6 +152,18 @@ def _export_motion(host: Host, head: Head, neutral: str, motion: str) -> Steps:
     return every_space
 
 
+def _shifts(track: str) -> typing.List[typing.Tuple[float, ...]]:
+    """Where the head went in each row, by the track that was extracted: time,x,y,z."""
+    with open(track, encoding="utf-8") as file:
+        return [tuple(map(float, line.split(",")[1:])) for line in file.read().splitlines()[1:]]
+
+
+def _after(matrix: Matrix, shift: typing.Sequence[float]) -> Matrix:
+    """The way of a matrix, for what was shifted first."""
+    rows = [matrix[at:at + 4] for at in range(0, 16, 4)]
+    return [value for a, b, c, d in rows[:3] for value in (a, b, c, a * shift[0] + b * shift[1] + c * shift[2] + d)] + rows[3]
+
+
 def extract(host: Host) -> Steps:
     """MPEG-4 face animation of the selected, animated head, and the head playing it."""
     mien, head = host.program(), host.selected_head()
@@ -166,7 +178,9 @@ def extract(host: Host) -> Steps:
         cache, made = os.path.join(work, "performance.mdd"), _made(work, "made")
         yield from program.running(
             mien, ["play", os.path.join(table, "face.fat"), os.path.join(table, "face.fap"), "-o", cache])
-        timing = yield from _split(host, head, cache, lambda row: spaces[min(row, len(spaces) - 1)], made)
+        shifts, last = _shifts(os.path.join(table, "head.csv")), len(spaces) - 1
+        timing = yield from _split(host, head, cache, lambda row: [
+            _after(space, shifts[min(row, last)]) for space in spaces[min(row, last)]], made)
         _keep(table, kept)
         _perform(host, head, made, "replay", timing, is_replay=True)
     host.remember("table", Remembered(head, os.path.join(kept, "face.fat"), spaces[0]))

@@ -9,6 +9,7 @@ class Shape:
         self.transform = transform
         self.positions = positions  # x, y, z one after another, in the space of the mesh
         self.faces = faces
+        self.rows = []  # positions at each frame from 1 on, where it moves
         self.attributes = {}
         self.switch = None
 
@@ -74,7 +75,8 @@ class Scene:
     def xform(self, vertices, query, worldSpace, translation):
         path, component = vertices.split(".")
         assert component == "vtx[*]"
-        values = iter(self.shapes[path].positions)
+        shape = self.shapes[path]
+        values = iter(shape.rows[round(self.frame) - 1] if shape.rows else shape.positions)
         lift = (self.frame - 1) / 10
         return [value for x, y, z in zip(values, values, values) for value in (z + 5, y + lift, -x)]
 
