@@ -213,7 +213,8 @@ void share_place(const Model& model, const Expectation& expectation, const Eigen
         w = solve(model, right, expected, pull, kept);
         std::vector<Index> still;
         for (std::size_t i = 0; i < kept.size(); ++i)
-            if (w.row(static_cast<Index>(i)).norm() * peaks[kept[i]] >= expectation.least) still.push_back(kept[i]);
+            if (w.row(static_cast<Index>(i)).norm() * peaks[kept[i]] >= expectation.least[kept[i]])
+                still.push_back(kept[i]);
         if (still.size() == kept.size() || round + 1 == rounds) break;
         kept = std::move(still);
     }
@@ -228,6 +229,14 @@ Eigen::MatrixXd shares(const Model& model, const Expectation& expectation) {
     const Eigen::VectorXd peaks = model.course.cwiseAbs().colwise().maxCoeff().transpose();
     tbb::parallel_for(Index{0}, places, [&](Index p) { share_place(model, expectation, peaks, p, result); });
     return result;
+}
+
+Eigen::VectorXd left_by(const Model& model, const Eigen::MatrixXd& shares, const Eigen::VectorXd& motion) {
+    const Eigen::MatrixXd given = model.gram * shares - 2 * model.right;
+    const Eigen::VectorXd left = motion + shares.cwiseProduct(given).colwise().sum().transpose();
+    Eigen::VectorXd of_place(left.size() / 3);
+    for (Index p = 0; p < of_place.size(); ++p) of_place[p] = std::max(left.segment(3 * p, 3).sum(), 0.0);
+    return of_place;
 }
 
 Eigen::VectorXd beyond_of(const Model& model, const Eigen::VectorXd& motion) {

@@ -37,12 +37,15 @@ Model fit_model(const MeshSequence& sequence, const FapColumns& columns, std::sp
 struct Expectation {
     Eigen::MatrixXd fields;     ///< intervals x 3 places: displacement at a course of 1
     Eigen::MatrixXd distances;  ///< intervals x places: from the parameter's point, in eye distances
-    double least = 0;           ///< shares that never move a vertex this far are dropped, in the unit of the mesh
+    Eigen::VectorXd least;      ///< per interval: shares that never move a vertex this far are dropped; mesh's unit
 };
 
 /// The share of each interval in the motion of each place: intervals x 3 places, displacement at a course of 1. An
 /// interval either moves a place or is 0 there.
 Eigen::MatrixXd shares(const Model& model, const Expectation& expectation);
+
+/// What shares leave of the mean square displacement of each place.
+Eigen::VectorXd left_by(const Model& model, const Eigen::MatrixXd& shares, const Eigen::VectorXd& motion);
 
 /// What the best linear mix of all intervals leaves of the mean square displacement, per place and axis.
 Eigen::VectorXd beyond_of(const Model& model, const Eigen::VectorXd& motion);

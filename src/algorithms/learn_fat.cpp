@@ -19,6 +19,7 @@
 #include "algorithms/fat_shares.hpp"
 #include "algorithms/island.hpp"
 #include "algorithms/learn_fat_written.hpp"
+#include "algorithms/rigid_parts.hpp"
 
 #include "mien/algorithms/extract_faps.hpp"
 #include "mien/algorithms/rig_biharmonic.hpp"
@@ -31,7 +32,8 @@ namespace mien {
 namespace {
 
 constexpr double moves_at_all = 1e-6;  // of the eye distance
-constexpr double seen = 1.5e-3;        // of the eye distance: shares that move a vertex less are dropped
+// Shares that move a vertex less are dropped: of the eye distance, and of how far the parameter's point goes.
+constexpr double seen = 1.5e-3, seen_of_point = 0.02;
 
 using Index = Eigen::Index;
 
@@ -122,7 +124,8 @@ Expectation expect(const Ground& ground, const Fapu& fapu, const FapColumns& col
     const auto intervals = static_cast<Index>(model.intervals.size());
     const auto places = static_cast<Index>(ground.places.size());
     Expectation expectation{Eigen::MatrixXd::Zero(intervals, 3 * places),
-                            Eigen::MatrixXd::Constant(intervals, places, far), seen * ground.scale};
+                            Eigen::MatrixXd::Constant(intervals, places, far),
+                            Eigen::VectorXd::Constant(intervals, seen * ground.scale)};
     const std::optional<Rig> rig = rig_of(ground.face);
     for (std::size_t k = 0; k < columns.faps.size(); ++k) {
         const Fap& fap = fap_info(columns.faps[k]);
@@ -130,10 +133,13 @@ Expectation expect(const Ground& ground, const Fapu& fapu, const FapColumns& col
         if (!point) continue;
         const std::vector<double> away = distances_from(ground, ground.face.points[*point].vertex);
         const Vec3 move = unit_length(fapu, fap.unit) * axis_of(fap);
+        const double farthest = columns.values.col(static_cast<Index>(k)).cwiseAbs().maxCoeff();
         const std::vector<Vec3> field =
             rig ? rig_field(*rig, ground, *point, move) : std::vector<Vec3>(ground.places.size());
         for (Index i = 0; i < intervals; ++i) {
             if (model.intervals[static_cast<std::size_t>(i)].column != k) continue;
+            if (length(move) > 0)
+                expectation.least[i] = std::min(expectation.least[i], seen_of_point * farthest * length(move));
             for (Index p = 0; p < places; ++p) {
                 expectation.distances(i, p) = away[static_cast<std::size_t>(p)];
                 const Vec3 w = model.sizes[i] * field[static_cast<std::size_t>(p)];
@@ -241,6 +247,35 @@ void add_transforms(Fat& fat, Tables& tables, const Ground& ground, const Fapu& 
     for (std::size_t i = 0; i < axes.size(); ++i) tables[head_faps[i]].transforms.push_back(turn(node, axes[i]));
 }
 
+// Pieces that hang on the jaw follow it as a whole where that is as near to the truth as shares of each vertex are;
+// they have no shares then.
+void add_parts(const UprightSequence& upright, const Ground& ground, const FapColumns& columns, const Model& model,
+               const Eigen::VectorXd& motion, const std::vector<MovingEyeball>& eyeballs, Eigen::MatrixXd& shares,
+               Fat& fat, Tables& tables) {
+    constexpr double as_near = 1.05, exact = 1e-3;  // of the shares' error; of the eye distance
+    std::vector<bool> taken(vertex_count(ground.face.mesh), false);
+    for (const MovingEyeball& eyeball : eyeballs)
+        for (const std::uint32_t v : eyeball.vertices) taken[v] = true;
+    const Eigen::VectorXd left = left_by(model, shares, motion);
+    for (const RigidPart& part : rigid_parts(upright, ground.weld, columns.rows, taken)) {
+        const PartFit fit = fit_part(part, ground.face.mesh, columns);
+        std::vector<Index> places;
+        for (std::size_t p = 0; p < ground.places.size(); ++p)
+            if (std::binary_search(part.vertices.begin(), part.vertices.end(), ground.vertices[p]))
+                places.push_back(static_cast<Index>(p));
+        double squares = 0;
+        for (const Index p : places) squares += left[p] / static_cast<double>(places.size());
+        if (fit.error > std::max(as_near * std::sqrt(squares), exact * ground.scale)) continue;
+        for (const Index p : places) shares.middleCols(3 * p, 3).setZero();
+        const auto node = static_cast<std::uint32_t>(fat.nodes.size());
+        fat.nodes.push_back({part.name, part.vertices, fit.centre});
+        for (const PartTransform& follows : fit.transforms) {
+            tables[follows.fap].transforms.push_back(follows.transform);
+            tables[follows.fap].transforms.back().node = node;
+        }
+    }
+}
+
 // How the parameters show in the frames.
 std::vector<LearntParameter> seen_parameters(const FapColumns& columns) {
     constexpr double near_rest = 0.05;  // of the largest value
@@ -308,17 +343,18 @@ LearntFat learn_fat(const UprightSequence& upright, const Fapu& fapu, const FapS
     const Ground ground = prepare(upright, columns, eyeballs);
     Eigen::VectorXd motion;
     const Model model = fit_model(upright.sequence, columns, ground.vertices, motion);
+    Fat nodes;
     Tables tables;
     if (as_written) {
         for (FaceDefTables& table : learn_tables_written(upright, stream)) tables[table.fap] = std::move(table);
     } else {
-        const Eigen::MatrixXd found = shares(model, expect(ground, fapu, columns, model));
+        Eigen::MatrixXd found = shares(model, expect(ground, fapu, columns, model));
+        add_parts(upright, ground, columns, model, motion, eyeballs, found, nodes, tables);
         for (std::size_t k = 0; k < columns.faps.size(); ++k) {
             FaceDefMesh mesh = mesh_of(ground, model, found, course_of(columns, model, k));
             if (!mesh.vertices.empty()) tables[columns.faps[k]].meshes.push_back(std::move(mesh));
         }
     }
-    Fat nodes;
     add_transforms(nodes, tables, ground, fapu, eyeballs);
     LearntFat learnt = told(columns, ground, model, motion, std::move(tables));
     learnt.fat.nodes = std::move(nodes.nodes);

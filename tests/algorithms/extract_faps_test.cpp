@@ -86,7 +86,7 @@ TEST(ExtractFaps, AnotherRateTakesTheNearestRows) {
     const Moving moving;
     const FapStream all = extract_faps(upright(moving.sequence, moving.face.points), moving.fapu);
     const FapStream some = extract_faps(upright(moving.sequence, moving.face.points), moving.fapu, {5});
-    ASSERT_EQ(some.frames.size(), 10U);
+    ASSERT_EQ(some.frames.size(), 11U);
     EXPECT_EQ(some.rate, 5);
     EXPECT_EQ(value(some, 3, 31), value(all, 15, 31));
 }

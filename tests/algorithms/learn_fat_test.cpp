@@ -145,6 +145,41 @@ TEST(LearnFat, EyeballsAndTheHeadTurnAsParts) {
     }
 }
 
+// Teeth of their own behind the mouth, that hang on the jaw: they turn about a hinge as the chin goes down.
+TEST(LearnFat, TeethThatHangOnTheJawTurnAboutItsHinge) {
+    Head head;
+    constexpr double radians_per_unit = -0.0006;  // positive opens, the chin turns backwards and down
+    const Vec3 hinge{0, -20, -70};
+    const auto first = static_cast<std::uint32_t>(vertex_count(head.face.mesh));
+    Mesh teeth = shapes::grid(6, 2, 4);
+    shapes::append(head.face.mesh, teeth, {-12, -80, -25});
+    const FapStream stream = animated::all_at_once();
+    Head skin;
+    MeshSequence sequence = animated::play(skin.face, skin.fapu, stream);
+    sequence.mesh = head.face.mesh;
+    sequence.positions = [&, positions = sequence.positions](std::size_t row, std::span<Vec3f> filled) {
+        positions(row, filled.first(first));
+        const double open = stream.frames[row].value[fap_index(3)];
+        for (std::size_t v = first; v < filled.size(); ++v)
+            filled[v] = to_float(hinge + rotate(animated::turn({1, 0, 0}, -radians_per_unit * open),
+                                                to_double(head.face.mesh.positions[v]) - hinge));
+    };
+    const LearntFat learnt = learn_fat(animated::still(head.face, sequence), head.fapu, stream);
+    const auto node = std::find_if(learnt.fat.nodes.begin(), learnt.fat.nodes.end(),
+                                   [&](const FatNode& n) { return n.vertices.front() == first; });
+    ASSERT_NE(node, learnt.fat.nodes.end());
+    EXPECT_EQ(node->vertices.size(), vertex_count(teeth));
+    EXPECT_NEAR(node->centre.y, hinge.y, 0.1);
+    EXPECT_NEAR(node->centre.z, hinge.z, 0.1);
+    const MeshSequence replay = deform(learnt.fat, head.face.mesh, stream);
+    std::vector<Vec3f> is(vertex_count(head.face.mesh)), was = is;
+    for (const std::size_t r : {11U, 77U, 140U}) {
+        replay.positions(r, is);
+        sequence.positions(r, was);
+        for (std::size_t v = first; v < is.size(); ++v) EXPECT_LT(distance(is[v], was[v]), 0.02F);
+    }
+}
+
 TEST(LearnFat, WhatNoParameterFollowsIsNamed) {
     const Head head;
     const FapStream stream = animated::all_at_once();
