@@ -33,7 +33,7 @@ namespace {
 
 constexpr double moves_at_all = 1e-6;  // of the eye distance
 // Shares that move a vertex less are dropped: of the eye distance, and of how far the parameter's point goes.
-constexpr double seen = 1.5e-3, seen_of_point = 0.02;
+constexpr double seen = 2e-3, seen_of_point = 0.05;
 
 using Index = Eigen::Index;
 
@@ -174,7 +174,18 @@ Course course_of(const FapColumns& columns, const Model& model, std::size_t colu
     return course;
 }
 
-FaceDefMesh mesh_of(const Ground& ground, const Model& model, const Eigen::MatrixXd& shares, const Course& course) {
+// To a thousandth of the parameter's unit: finer steps would be lost in the rounding of its values, and short numbers
+// make small files.
+Vec3f short_step(const Vec3& step, int fap, const Fapu& fapu) {
+    constexpr double fine = 1000;
+    const double unit = unit_length(fapu, fap_info(fap).unit);
+    if (fap_info(fap).unit == FapUnit::angle || !(unit > 0)) return to_float(step);
+    const auto rounded = [&](double x) { return std::round(fine * x / unit) / fine * unit; };
+    return to_float({rounded(step.x), rounded(step.y), rounded(step.z)});
+}
+
+FaceDefMesh mesh_of(const Ground& ground, const Fapu& fapu, int fap, const Model& model, const Eigen::MatrixXd& shares,
+                    const Course& course) {
     FaceDefMesh mesh;
     mesh.borders = course.borders;
     std::vector<Index> place_index(ground.weld.vertex.size(), -1);
@@ -182,13 +193,13 @@ FaceDefMesh mesh_of(const Ground& ground, const Model& model, const Eigen::Matri
     for (std::uint32_t v = 0; v < ground.weld.place.size(); ++v) {
         const Index p = place_index[ground.weld.place[v]];
         if (p < 0) continue;
-        const bool depends = std::any_of(course.intervals.begin(), course.intervals.end(),
-                                         [&](Index i) { return !shares.block(i, 3 * p, 1, 3).isZero(0); });
-        if (!depends) continue;
-        mesh.vertices.push_back(v);
+        std::vector<Vec3f> steps;
         for (const Index i : course.intervals)
-            mesh.displacements.push_back(
-                to_float(Vec3{shares(i, 3 * p), shares(i, 3 * p + 1), shares(i, 3 * p + 2)} / model.sizes[i]));
+            steps.push_back(short_step(
+                Vec3{shares(i, 3 * p), shares(i, 3 * p + 1), shares(i, 3 * p + 2)} / model.sizes[i], fap, fapu));
+        if (std::all_of(steps.begin(), steps.end(), [](const Vec3f& step) { return step == Vec3f{}; })) continue;
+        mesh.vertices.push_back(v);
+        mesh.displacements.insert(mesh.displacements.end(), steps.begin(), steps.end());
     }
     return mesh;
 }
@@ -351,7 +362,7 @@ LearntFat learn_fat(const UprightSequence& upright, const Fapu& fapu, const FapS
         Eigen::MatrixXd found = shares(model, expect(ground, fapu, columns, model));
         add_parts(upright, ground, columns, model, motion, eyeballs, found, nodes, tables);
         for (std::size_t k = 0; k < columns.faps.size(); ++k) {
-            FaceDefMesh mesh = mesh_of(ground, model, found, course_of(columns, model, k));
+            FaceDefMesh mesh = mesh_of(ground, fapu, columns.faps[k], model, found, course_of(columns, model, k));
             if (!mesh.vertices.empty()) tables[columns.faps[k]].meshes.push_back(std::move(mesh));
         }
     }

@@ -132,6 +132,12 @@ TEST(UprightSequence, PlaceSizeAndDirectionOfTheWholeAnimationChangeNoParameter)
         return 3.0 * rotate(turn, p) + Vec3{500, -200, 100};
     });
     const UprightSequence found = upright(elsewhere, moving.face.points);
+    Vec3 middle, middle_there;
+    for (const FeaturePoint& p : found.points) {
+        middle += p.position;
+        middle_there += to_double(elsewhere.mesh.positions[p.vertex]);
+    }
+    EXPECT_LT(distance(middle, middle_there), 0.1) << "a head that is turned stays at its place";
     const FapStream again = extract_faps(found, measure_fapu(found.points));
     ASSERT_EQ(again.frames.size(), as_it_is.frames.size());
     for (std::size_t r = 0; r < again.frames.size(); ++r)
