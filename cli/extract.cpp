@@ -78,9 +78,17 @@ std::vector<FeaturePoint> load_points(const Extract& flags, const Mesh& mesh, Re
     return std::move(file.points);
 }
 
+// 4 x 4, row by row; it stands left of a column.
+std::vector<double> as_matrix(const Pose& pose) {
+    const Vec3 x = rotate(pose.rotation, {1, 0, 0}), y = rotate(pose.rotation, {0, 1, 0}),
+               z = rotate(pose.rotation, {0, 0, 1}), t = pose.translation;
+    return {x.x, y.x, z.x, t.x, x.y, y.y, z.y, t.y, x.z, y.z, z.z, t.z, 0, 0, 0, 1};
+}
+
 void report_head(const Found& found, const Extract& flags, Report& report) {
     const UprightSequence& upright = found.upright;
     report["head"] = {{"turned_by_degrees", turn_angle(upright.source.rotation)},
+                      {"from_model_to_animation", as_matrix(upright.source)},
                       {"skull_vertices", upright.skull.size()},
                       {"skull_moves", upright.skull_motion}};
     constexpr double loose = 0.01;

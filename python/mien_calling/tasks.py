@@ -123,13 +123,19 @@ def retarget(host: Host, take: str) -> Steps:
     return f"{head.name}: performs {os.path.basename(take)} with {driven} points, to frame {timing.last_frame():.0f}"
 
 
+def _play(mien: str, kind: str, player: str, faps: str, cache: str) -> Steps:
+    """A cache of FAPs on a table, which turns the head too, or on a rig, whose caches leave its turns out."""
+    turns = ["--head-motion"] if kind == "table" else []
+    return program.running(mien, ["play", player, faps, *turns, "-o", cache])
+
+
 def import_fap(host: Host, faps: str) -> Steps:
     """Lets the head of the active mesh play FAPs: by its table if it was extracted, else by its rig."""
     mien, kind = host.program(), "table" if host.remembered("table") else "rig"
     head, player, spaces = _remembered(host, kind)
     with tempfile.TemporaryDirectory(prefix="mien-") as work:
         cache, made = os.path.join(work, "performance.mdd"), _made(work, "made")
-        yield from program.running(mien, ["play", player, faps, "-o", cache])
+        yield from _play(mien, kind, player, faps, cache)
         timing = yield from _split(host, head, cache, lambda _row: spaces, made)
         _perform(host, head, made, _stem(faps), timing)
     return f"{head.name}: plays {os.path.basename(faps)} by its {kind}, to frame {timing.last_frame():.0f}"
@@ -152,16 +158,19 @@ def _export_motion(host: Host, head: Head, neutral: str, motion: str) -> Steps:
     return every_space
 
 
-def _shifts(track: str) -> typing.List[typing.Tuple[float, ...]]:
+def _shifts(track: str) -> typing.List[Matrix]:
     """Where the head went in each row, by the track that was extracted: time,x,y,z."""
     with open(track, encoding="utf-8") as file:
-        return [tuple(map(float, line.split(",")[1:])) for line in file.read().splitlines()[1:]]
+        return [_shift(*map(float, line.split(",")[1:])) for line in file.read().splitlines()[1:]]
 
 
-def _after(matrix: Matrix, shift: typing.Sequence[float]) -> Matrix:
-    """The way of a matrix, for what was shifted first."""
-    rows = [matrix[at:at + 4] for at in range(0, 16, 4)]
-    return [value for a, b, c, d in rows[:3] for value in (a, b, c, a * shift[0] + b * shift[1] + c * shift[2] + d)] + rows[3]
+def _shift(x: float, y: float, z: float) -> Matrix:
+    return [1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1]
+
+
+def _after(second: Matrix, first: Matrix) -> Matrix:
+    """One way, then the other."""
+    return [sum(second[4 * row + k] * first[4 * k + column] for k in range(4)) for row in range(4) for column in range(4)]
 
 
 def extract(host: Host) -> Steps:
@@ -176,13 +185,14 @@ def extract(host: Host) -> Steps:
                                                    f"{host.frames_per_second():.9g}", "-o", table])
         write_json(os.path.join(table, "report.json"), report)
         cache, made = os.path.join(work, "performance.mdd"), _made(work, "made")
-        yield from program.running(
-            mien, ["play", os.path.join(table, "face.fat"), os.path.join(table, "face.fap"), "-o", cache])
-        shifts, last = _shifts(os.path.join(table, "head.csv")), len(spaces) - 1
-        timing = yield from _split(host, head, cache, lambda row: [
-            _after(space, shifts[min(row, last)]) for space in spaces[min(row, last)]], made)
+        yield from _play(mien, "table", os.path.join(table, "face.fat"), os.path.join(table, "face.fap"), cache)
+        model = report["head"]["from_model_to_animation"]
+        ways = [[_after(space, _after(model, shift)) for space in of_frame]
+                for of_frame, shift in zip(spaces, _shifts(os.path.join(table, "head.csv")))]
+        timing = yield from _split(host, head, cache, lambda row: ways[min(row, len(ways) - 1)], made)
         _keep(table, kept)
         _perform(host, head, made, "replay", timing, is_replay=True)
-    host.remember("table", Remembered(head, os.path.join(kept, "face.fat"), spaces[0]))
+    still = [_after(space, model) for space in spaces[0]]
+    host.remember("table", Remembered(head, os.path.join(kept, "face.fat"), still))
     away = 100 * report["replay"]["mean"]
     return f"{head.name}: extracted; the replay is {away:.2g} % of the eye distance away on average"
