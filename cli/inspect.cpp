@@ -8,6 +8,7 @@
 
 #include "fap_files.hpp"
 #include "inputs.hpp"
+#include "inspect_moving.hpp"
 #include "verb.hpp"
 
 #include "mien/algorithms/check_mesh.hpp"
@@ -124,8 +125,14 @@ void inspect(Call& call, const Inspect& flags) {
         report_fdp(fdp, report);
         return;
     }
-    const Mesh mesh = read_mesh(flags.file);
+    if (is_point_cache(flags.file)) {
+        inspect_point_cache(flags.file, report);
+        return;
+    }
+    const bool is_folder = flags.file.extension().empty() && std::filesystem::is_directory(flags.file);
+    const Mesh mesh = is_folder ? inspect_frames(flags.file, report) : read_mesh(flags.file);
     inspect_mesh(mesh, report);
+    if (!is_folder) inspect_animations(flags.file, report);
     if (is_rig(mesh)) inspect_rig(read_rig(flags.file).rig, report);
     if (!flags.points.empty()) inspect_points(flags.points, mesh, report);
 }
@@ -135,11 +142,13 @@ void inspect(Call& call, const Inspect& flags) {
 void add_inspect(CLI::App& app, Call& call) {
     const auto flags = std::make_shared<Inspect>();
     CLI::App* verb =
-        add_verb(app, call, "inspect", "Says what is in a mesh, take or rig file, and what is odd about it.",
+        add_verb(app, call, "inspect", "Says what is in a mesh, take, animation or rig file, and what is odd about it.",
                  "mien inspect kate.glb --points kate.json", [&call, flags] { inspect(call, *flags); });
-    verb->add_option("file", flags->file,
-                     "a mesh (.glb .gltf .obj .off .ply), take (.trc .csv .c3d), rig (.glb), animation parameters "
-                     "(.fap .fba) or face definition (.fat .bt .fdp .fapu .json)")
+    verb->add_option(
+            "file", flags->file,
+            "a mesh (.glb .gltf .fbx .obj .off .ply), animated head (.glb .gltf .fbx .mdd .pc2, or a folder of .obj "
+            "or .ply), take (.trc .csv .c3d), rig (.glb), animation parameters (.fap .fba) or face definition (.fat "
+            ".bt .fdp .fapu .json)")
         ->required();
     add_fdp_flags(*verb, flags->definition);
     verb->add_option("--points", flags->points, "feature points of the mesh, to be checked against it (.json)");

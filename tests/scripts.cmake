@@ -33,6 +33,8 @@ if(TARGET mien_cli)
   script_test(cli.shapes ${CMAKE_CURRENT_SOURCE_DIR}/cli/shapes_test.py)
   script_test(cli.extract ${CMAKE_CURRENT_SOURCE_DIR}/cli/extract_test.py)
   set_tests_properties(cli.evaluate cli.shapes cli.extract PROPERTIES ENVIRONMENT ${program})
+  script_test(cli.animated_heads ${CMAKE_CURRENT_SOURCE_DIR}/cli/sequence_test.py)
+  set_tests_properties(cli.animated_heads PROPERTIES ENVIRONMENT ${program})
 
   script_test(python.calling ${CMAKE_CURRENT_SOURCE_DIR}/python/calling_test.py)
   script_test(blender.zip ${CMAKE_CURRENT_SOURCE_DIR}/python/addon_zip_test.py)

@@ -32,8 +32,9 @@ namespace mien {
 namespace {
 
 constexpr double moves_at_all = 1e-6;  // of the eye distance
-// Shares that move a vertex less are dropped: of the eye distance, and of how far the parameter's point goes.
-constexpr double seen = 2e-3, seen_of_point = 0.05;
+// Shares that move a vertex less are dropped: of the eye distance, of how far the parameter's point goes if that is
+// less, but never below the last, of the eye distance again.
+constexpr double seen = 2e-3, seen_of_point = 0.05, unseen = 5e-4;
 
 using Index = Eigen::Index;
 
@@ -139,7 +140,8 @@ Expectation expect(const Ground& ground, const Fapu& fapu, const FapColumns& col
         for (Index i = 0; i < intervals; ++i) {
             if (model.intervals[static_cast<std::size_t>(i)].column != k) continue;
             if (length(move) > 0)
-                expectation.least[i] = std::min(expectation.least[i], seen_of_point * farthest * length(move));
+                expectation.least[i] =
+                    std::clamp(seen_of_point * farthest * length(move), unseen * ground.scale, seen * ground.scale);
             for (Index p = 0; p < places; ++p) {
                 expectation.distances(i, p) = away[static_cast<std::size_t>(p)];
                 const Vec3 w = model.sizes[i] * field[static_cast<std::size_t>(p)];
@@ -222,7 +224,7 @@ std::vector<int> transform_faps(const std::vector<MovingEyeball>& eyeballs) {
 
 // Parameters that never move their point so far that it could be seen: rounding, and skin that is not quite still.
 void add_unseen_faps(const FapStream& stream, const Fapu& fapu, double scale, std::vector<int>& numbers) {
-    constexpr double least = 0.002;  // of the eye distance
+    constexpr double least = 0.005;  // of the eye distance
     for (int fap = 3; fap <= 68; ++fap) {
         if (fap_info(fap).unit == FapUnit::angle) continue;
         std::int32_t largest = 0;

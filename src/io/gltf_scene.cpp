@@ -49,8 +49,8 @@ struct Growing {
 };
 
 // "mesh 2 'head'": what is number `number` of the array `list`.
-std::string title(const Growing& out, const char* what, const char* list, std::size_t number) {
-    const std::string name = text_member(out.document.json[list][number], "name", fmt::format("/{}/{}", list, number));
+std::string title(const GltfDocument& document, const char* what, const char* list, std::size_t number) {
+    const std::string name = text_member(document.json[list][number], "name", fmt::format("/{}/{}", list, number));
     return name.empty() ? fmt::format("{} {}", what, number) : fmt::format("{} {} {}", what, number, shown(name));
 }
 
@@ -149,7 +149,7 @@ bool is_drawn(const Primitive& primitive) {
 void add_primitive(Growing& out, const Primitive& primitive, const Surface& about, const std::vector<Place>& places,
                    const std::vector<std::string>& morphs) {
     const std::string whose =
-        fmt::format("{}, primitive {}", title(out, "mesh", "meshes", about.mesh), about.primitive);
+        fmt::format("{}, primitive {}", title(out.document, "mesh", "meshes", about.mesh), about.primitive);
     if (!is_drawn(primitive)) {
         out.scene.left_out.push_back(whose + ": points and lines");
         return;
@@ -163,7 +163,8 @@ void add_primitive(Growing& out, const Primitive& primitive, const Surface& abou
 void add_mesh(Growing& out, std::size_t m, const std::vector<Place>& places) {
     const json& value = out.document.json["meshes"][m];
     const std::vector<std::string> morphs = target_names(out.document, m);
-    if (places.empty()) out.scene.left_out.push_back(title(out, "mesh", "meshes", m) + ": the scene does not show it");
+    if (places.empty())
+        out.scene.left_out.push_back(title(out.document, "mesh", "meshes", m) + ": the scene does not show it");
     Surface about;
     about.name = text_member(value, "name", fmt::format("/meshes/{}", m));
     about.mesh = static_cast<std::uint32_t>(m);
@@ -198,11 +199,10 @@ bool is_known(const std::string& extension) {
     return extension.rfind("KHR_materials_", 0) == 0 || std::find(known.begin(), known.end(), extension) != known.end();
 }
 
-void name_the_rest(Growing& out) {
-    const json& root = out.document.json;
-    std::vector<std::string>& left_out = out.scene.left_out;
+void name_the_rest(const GltfDocument& document, std::vector<std::string>& left_out) {
+    const json& root = document.json;
     for (std::size_t a = 1; a < element_count(root, "animations"); ++a)
-        left_out.push_back(title(out, "animation", "animations", a) + ": the first is the one that plays");
+        left_out.push_back(title(document, "animation", "animations", a) + ": the first is the one that plays");
     if (const std::size_t cameras = element_count(root, "cameras"); cameras > 0)
         left_out.push_back(fmt::format("cameras of the file: {}", cameras));
     for (const json& name : array_member(root, "extensionsUsed", ""))
@@ -224,7 +224,6 @@ DocumentScene read_document_scene(const GltfDocument& document, Looks looks) {
     for (DocumentMaterial& material : out.materials) out.scene.materials.push_back(std::move(material.material));
     out.scene.pictures = std::move(out.pictures.read);
     out.scene.left_out.insert(out.scene.left_out.end(), out.pictures.left_out.begin(), out.pictures.left_out.end());
-    name_the_rest(out);
     return {std::move(out.scene), std::move(out.node_numbers), out.budget};
 }
 
@@ -232,6 +231,7 @@ Scene parse_scene(std::span<const std::byte> bytes, const Fetch& fetch) {
     const GltfDocument document = load_plain_gltf(bytes, fetch);
     DocumentScene read = read_document_scene(document, Looks::read);
     if (element_count(document.json, "animations") > 0) read.scene.channels = read_channels(document, 0, read);
+    name_the_rest(document, read.scene.left_out);
     return std::move(read.scene);
 }
 

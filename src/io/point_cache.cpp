@@ -124,18 +124,23 @@ void need_header(const Cache& cache, std::size_t size) {
 
 constexpr std::size_t position_size = 3 * sizeof(float);
 
-// What stands in the counts against the bytes that are there: no count is believed before. Up to 2^31 rows of 2^31
-// vertices of 12 bytes stay under 2^66, so rows are divided instead of multiplied.
-void check_counts(const Cache& cache, std::uint32_t rows, std::uint32_t vertices, std::size_t vertices_at,
-                  const Mesh& head) {
-    if (vertices != vertex_count(head))
-        cache.fail(vertices_at, fmt::format("{} vertices as the head has", vertex_count(head)),
-                   std::to_string(vertices));
-    const std::uint64_t row_size = std::uint64_t{vertices} * position_size;
+// A cache whose counts and numbers are checked.
+struct Opened {
+    Cache cache;
+    std::uint32_t rows = 0, vertices = 0;
+    std::size_t vertices_at = 0;  // where their count stands
+    double frames_per_row = 0;    // of a PC2
+};
+
+// What stands in the counts against the bytes that are there: no count is believed before.
+void check_size(const Opened& opened) {
+    const Cache& cache = opened.cache;
+    const std::uint64_t row_size = std::uint64_t{opened.vertices} * position_size;
     const std::uint64_t there = cache.bytes.size() < cache.rows_at ? 0 : cache.bytes.size() - cache.rows_at;
-    if (cache.bytes.size() < cache.rows_at || there % row_size != 0 || there / row_size != rows)
+    if (cache.bytes.size() < cache.rows_at || there % row_size != 0 || there / row_size != opened.rows)
         cache.fail(cache.bytes.size(),
-                   fmt::format("the end after {} rows of {} vertices from byte {} on", rows, vertices, cache.rows_at),
+                   fmt::format("the end after {} rows of {} vertices from byte {} on", opened.rows, opened.vertices,
+                               cache.rows_at),
                    fmt::format("a file of {} bytes", cache.bytes.size()));
 }
 
@@ -170,9 +175,43 @@ std::vector<double> own_times(const Cache& cache, std::size_t rows) {
     return times;
 }
 
-MeshSequence rows_of(Cache cache, Mesh head, std::vector<double> times) {
+Opened open_mdd(std::vector<std::byte> bytes) {
+    constexpr std::size_t vertices_at = 4, header = 8;
+    Opened opened{{"mdd", Order::big, std::move(bytes)}, 0, 0, vertices_at};
+    need_header(opened.cache, header);
+    opened.rows = count_at(opened.cache, 0, "row");
+    opened.vertices = count_at(opened.cache, vertices_at, "vertex");
+    opened.cache.rows_at = header + std::size_t{opened.rows} * sizeof(float);
+    check_size(opened);
+    check_numbers(opened.cache);
+    return opened;
+}
+
+Opened open_pc2(std::vector<std::byte> bytes) {
+    using namespace std::string_view_literals;
+    constexpr std::string_view magic = "POINTCACHE2\0"sv;
+    constexpr std::size_t version_at = 12, vertices_at = 16, step_at = 24, rows_at = 28, header = 32;
+    Opened opened{{"pc2", Order::little, std::move(bytes), header}, 0, 0, vertices_at};
+    const Cache& cache = opened.cache;
+    need_header(cache, header);
+    if (as_text(cache.bytes).substr(0, magic.size()) != magic)
+        cache.fail(0, "\"POINTCACHE2\"", shown(as_text(cache.bytes).substr(0, magic.size())));
+    if (cache.word(version_at) != 1) cache.fail(version_at, "version 1", std::to_string(cache.word(version_at)));
+    opened.rows = count_at(cache, rows_at, "row");
+    opened.vertices = count_at(cache, vertices_at, "vertex");
+    opened.frames_per_row = cache.number(step_at);
+    if (!std::isfinite(opened.frames_per_row) || !(opened.frames_per_row > 0))
+        cache.fail(step_at, "a number of frames per row above 0", fmt::format("{}", opened.frames_per_row));
+    check_size(opened);
     check_numbers(cache);
-    const auto shared = std::make_shared<const Cache>(std::move(cache));
+    return opened;
+}
+
+MeshSequence rows_of(Opened opened, Mesh head, std::vector<double> times) {
+    if (opened.vertices != vertex_count(head))
+        opened.cache.fail(opened.vertices_at, fmt::format("{} vertices as the head has", vertex_count(head)),
+                          std::to_string(opened.vertices));
+    const auto shared = std::make_shared<const Cache>(std::move(opened.cache));
     return {std::move(head), std::move(times), [shared](std::size_t row, std::span<Vec3f> positions) {
                 std::size_t at = shared->rows_at + row * positions.size() * position_size;
                 for (Vec3f& p : positions) {
@@ -185,34 +224,33 @@ MeshSequence rows_of(Cache cache, Mesh head, std::vector<double> times) {
 }  // namespace
 
 MeshSequence parse_mdd(std::vector<std::byte> bytes, Mesh head, double rate) {
-    constexpr std::size_t header = 8;
     check_rate("mdd", rate);
-    Cache cache{"mdd", Order::big, std::move(bytes)};
-    need_header(cache, header);
-    const std::uint32_t rows = count_at(cache, 0, "row"), vertices = count_at(cache, 4, "vertex");
-    cache.rows_at = header + std::size_t{rows} * sizeof(float);
-    check_counts(cache, rows, vertices, 4, head);
-    std::vector<double> times = rate > 0 ? even_times(rows, rate) : own_times(cache, rows);
-    return rows_of(std::move(cache), std::move(head), std::move(times));
+    Opened opened = open_mdd(std::move(bytes));
+    std::vector<double> times = rate > 0 ? even_times(opened.rows, rate) : own_times(opened.cache, opened.rows);
+    return rows_of(std::move(opened), std::move(head), std::move(times));
 }
 
 MeshSequence parse_pc2(std::vector<std::byte> bytes, Mesh head, double rate) {
-    using namespace std::string_view_literals;
-    constexpr std::string_view magic = "POINTCACHE2\0"sv;
-    constexpr std::size_t version_at = 12, vertices_at = 16, step_at = 24, rows_at = 28, header = 32;
     check_rate("pc2", rate);
-    Cache cache{"pc2", Order::little, std::move(bytes), header};
-    need_header(cache, header);
-    if (as_text(cache.bytes).substr(0, magic.size()) != magic)
-        cache.fail(0, "\"POINTCACHE2\"", shown(as_text(cache.bytes).substr(0, magic.size())));
-    if (cache.word(version_at) != 1) cache.fail(version_at, "version 1", std::to_string(cache.word(version_at)));
-    const std::uint32_t rows = count_at(cache, rows_at, "row"), vertices = count_at(cache, vertices_at, "vertex");
-    const double step = cache.number(step_at);
-    if (!std::isfinite(step) || step <= 0)
-        cache.fail(step_at, "a number of frames per row above 0", fmt::format("{}", step));
-    check_counts(cache, rows, vertices, vertices_at, head);
+    Opened opened = open_pc2(std::move(bytes));
     if (rate == 0) throw Error("pc2: it counts in frames; expected the frames per second to be given, found none");
-    return rows_of(std::move(cache), std::move(head), even_times(rows, rate / step));
+    const double rows_per_second = rate / opened.frames_per_row;
+    if (!std::isfinite(rows_per_second) || !(rows_per_second > 0))
+        throw Error(
+            fmt::format("pc2: expected a rate that gives rows per second, found {} frames a second and {} a row", rate,
+                        opened.frames_per_row));
+    std::vector<double> times = even_times(opened.rows, rows_per_second);
+    return rows_of(std::move(opened), std::move(head), std::move(times));
+}
+
+PointCacheContent check_mdd(std::vector<std::byte> bytes) {
+    const Opened opened = open_mdd(std::move(bytes));
+    return {opened.rows, opened.vertices, own_times(opened.cache, opened.rows)};
+}
+
+PointCacheContent check_pc2(std::vector<std::byte> bytes) {
+    const Opened opened = open_pc2(std::move(bytes));
+    return {opened.rows, opened.vertices, {}};
 }
 
 namespace {

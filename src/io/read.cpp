@@ -21,6 +21,7 @@
 #include "mien/error.hpp"
 #include "mien/io/c3d.hpp"
 #include "mien/io/fap_text.hpp"
+#include "mien/io/fbx.hpp"
 #include "mien/io/fdp_json.hpp"
 #include "mien/io/fit.hpp"
 #include "mien/io/marker_map.hpp"
@@ -28,7 +29,6 @@
 #include "mien/io/obj.hpp"
 #include "mien/io/off.hpp"
 #include "mien/io/ply.hpp"
-#include "mien/io/point_cache.hpp"
 #include "mien/io/scene.hpp"
 #include "mien/io/take_csv.hpp"
 #include "mien/io/trc.hpp"
@@ -144,6 +144,15 @@ bool is_gltf(const fs::path& path) {
     return has_extension(path, ".glb") || has_extension(path, ".gltf");
 }
 
+bool is_fbx(const fs::path& path) {
+    return has_extension(path, ".fbx");
+}
+
+// For documents that hold everything themselves.
+Bytes no_fetch(std::string_view uri) {
+    throw Error(fmt::format("uri {}: expected nothing outside of the file", shown(uri)));
+}
+
 Fetch beside(const fs::path& gltf) {
     return [gltf](std::string_view uri) { return fetch_beside(gltf, uri); };
 }
@@ -154,7 +163,8 @@ ParseMesh mesh_parser(const fs::path& path) {
     if (has_extension(path, ".obj")) return parse_obj;
     if (has_extension(path, ".off")) return parse_off;
     if (has_extension(path, ".ply")) return parse_ply;
-    if (!is_gltf(path)) unknown_extension(path, ".glb, .gltf, .obj, .off or .ply");
+    if (is_fbx(path)) return [](std::span<const std::byte> bytes) { return parse_gltf(convert_fbx(bytes), no_fetch); };
+    if (!is_gltf(path)) unknown_extension(path, ".glb, .gltf, .fbx, .obj, .off or .ply");
     return [fetch = beside(path)](std::span<const std::byte> bytes) { return parse_gltf(bytes, fetch); };
 }
 
@@ -207,15 +217,27 @@ MeshSequence read_sequence(const fs::path& path, const SequenceOptions& options)
     if (fs::is_directory(path, unknown)) return read_frames(path, options.rate);
     if (has_extension(path, ".mdd")) return read_cache(path, options, parse_mdd);
     if (has_extension(path, ".pc2")) return read_cache(path, options, parse_pc2);
-    if (!is_gltf(path)) unknown_extension(path, ".glb, .gltf, .mdd or .pc2, or a folder");
+    if (!is_gltf(path) && !is_fbx(path)) unknown_extension(path, ".glb, .gltf, .fbx, .mdd or .pc2, or a folder");
     return named(path, parsed(path, [&](std::span<const std::byte> bytes) {
-                     return parse_gltf_sequence(bytes, beside(path), options);
+                     return is_fbx(path) ? parse_gltf_sequence(convert_fbx(bytes), no_fetch, options)
+                                         : parse_gltf_sequence(bytes, beside(path), options);
                  }));
 }
 
 std::vector<Animation> read_animations(const fs::path& path) {
-    if (!is_gltf(path)) unknown_extension(path, ".glb or .gltf");
-    return parsed(path, [&](std::span<const std::byte> bytes) { return parse_gltf_animations(bytes, beside(path)); });
+    if (!is_gltf(path) && !is_fbx(path)) unknown_extension(path, ".glb, .gltf or .fbx");
+    return parsed(path, [&](std::span<const std::byte> bytes) {
+        return is_fbx(path) ? parse_gltf_animations(convert_fbx(bytes), no_fetch)
+                            : parse_gltf_animations(bytes, beside(path));
+    });
+}
+
+PointCacheContent read_cache_content(const fs::path& path) {
+    const bool is_mdd = has_extension(path, ".mdd");
+    if (!is_mdd && !has_extension(path, ".pc2")) unknown_extension(path, ".mdd or .pc2");
+    return parsed(path, [&](std::span<const std::byte> bytes) {
+        return is_mdd ? check_mdd({bytes.begin(), bytes.end()}) : check_pc2({bytes.begin(), bytes.end()});
+    });
 }
 
 Take read_take(const fs::path& path) {

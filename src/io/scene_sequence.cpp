@@ -24,8 +24,8 @@ namespace {
 
 using Property = Channel::Property;
 
-constexpr double usual_rate = 30;   // rows per second of what has few keys
-constexpr double least_dense = 12;  // keys per second of an animation that was baked
+constexpr double usual_rate = 30;  // rows per second of what has few keys
+constexpr double least_dense = 8;  // keys per second of an animation that was baked
 
 struct Span {
     double first = 0, last = 0;

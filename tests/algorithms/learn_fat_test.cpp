@@ -91,6 +91,16 @@ TEST(LearnFat, ParametersThatAlwaysActTogetherAreTakenApart) {
     }
 }
 
+TEST(LearnFat, AVertexThatHardlyMovesWithAParameterDoesNotDependOnIt) {
+    const Head head;
+    const FapStream stream = animated::all_at_once();
+    constexpr double eyes = 64, largest = 250;
+    for (const FaceDefTables& table : learn(head, stream).fat.tables)
+        for (const FaceDefMesh& mesh : table.meshes)
+            for (const Vec3f& step : mesh.displacements)
+                EXPECT_GT(largest * length(to_double(step)), 4e-4 * eyes) << fap_info(table.fap).name;
+}
+
 TEST(LearnFat, ParametersThatAreNeverApartShareByNearnessAndAreSaidToBeUnsure) {
     const Head head;
     FapStream stream = animated::all_at_once();

@@ -39,7 +39,7 @@ class Extraction(program.ProgramTest):
         self.assertEqual(len(track), report["animation"]["rows"])
         self.assertEqual(list(track[0]), ["time", "x", "y", "z"])
         points = json.loads((made / "points.json").read_text(encoding="utf-8"))
-        self.assertEqual(len(points), report["points"]["count"])
+        self.assertEqual(len(points["points"]), report["points"]["count"])
 
     def test_sizes_are_those_of_the_files(self):
         report = self.extract()

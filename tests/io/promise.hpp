@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "mien/mesh.hpp"
+#include "mien/mesh_sequence.hpp"
 #include "mien/picture.hpp"
 #include "mien/rig.hpp"
 #include "mien/scene.hpp"
@@ -65,6 +66,19 @@ inline bool keeps_promise(const Take& take) {
     for (std::size_t r = 0; r < take.times.size(); ++r)
         good = good && std::isfinite(take.times[r]) && (r == 0 || take.times[r - 1] < take.times[r]);
     return good && std::all_of(take.samples.begin(), take.samples.end(), whole);
+}
+
+/// Times rise from 0, and the first and last `rows` rows are finite.
+inline bool keeps_promise(const MeshSequence& sequence, std::size_t rows = 100) {
+    std::vector<Vec3f> positions(sequence.mesh.positions.size());
+    bool good = keeps_promise(sequence.mesh) && !sequence.times.empty() && sequence.times[0] == 0;
+    for (std::size_t r = 0; r < sequence.times.size(); ++r) {
+        good = good && std::isfinite(sequence.times[r]) && (r == 0 || sequence.times[r - 1] < sequence.times[r]);
+        if (r >= rows && r + rows < sequence.times.size()) continue;
+        sequence.positions(r, positions);
+        good = good && std::all_of(positions.begin(), positions.end(), is_finite<float>);
+    }
+    return good;
 }
 
 /// As many numbers as the size says, and some.

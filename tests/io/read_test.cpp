@@ -6,12 +6,15 @@
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sstream>
 #include <unistd.h>
 
 #include "io/text.hpp"
+#include "shapes.hpp"
 
 #include "mien/error.hpp"
 #include "mien/io/fap_text.hpp"
+#include "mien/io/point_cache.hpp"
 #include "mien/io/write.hpp"
 
 namespace mien {
@@ -187,6 +190,105 @@ TEST_F(Read, a_gltf_reaches_files_of_its_folder_and_below_and_nothing_else) {
         const Refusal found = refusal([&] { read_mesh(file("a.gltf", gltf(uri))); });
         EXPECT_THAT(found.sentence, AnyOf(HasSubstr("expected a file"), HasSubstr("expected a relative uri"))) << uri;
     }
+}
+
+// A square that grows by a tenth a row, 25 rows a second.
+MeshSequence growing_square(std::size_t rows) {
+    MeshSequence sequence{shapes::strip(1), {}, {}};
+    for (std::size_t row = 0; row < rows; ++row) sequence.times.push_back(static_cast<double>(row) / 25);
+    sequence.positions = [rest = sequence.mesh.positions](std::size_t row, std::span<Vec3f> positions) {
+        for (std::size_t v = 0; v < positions.size(); ++v)
+            positions[v] = (1 + 0.1F * static_cast<float>(row)) * rest[v];
+    };
+    return sequence;
+}
+
+void expect_equal(const MeshSequence& a, const MeshSequence& b) {
+    EXPECT_THAT(a.times, testing::Pointwise(testing::DoubleNear(1e-6), b.times));
+    ASSERT_EQ(a.times.size(), b.times.size());
+    for (std::size_t row = 0; row < a.times.size(); ++row) {
+        std::vector<Vec3f> p(vertex_count(a.mesh)), q(vertex_count(b.mesh));
+        a.positions(row, p);
+        b.positions(row, q);
+        EXPECT_EQ(p, q) << "row " << row;
+    }
+}
+
+TEST_F(Read, caches_and_folders_of_frames_read_back_as_they_were_written) {
+    const MeshSequence sequence = growing_square(12);
+    std::ostringstream head;
+    format_obj(sequence.mesh, sequence.mesh.positions, head);
+    const fs::path neutral = file("head.obj", head.str());
+    for (const char* name : {"baked.mdd", "baked.PC2", "frames"}) {
+        write(sequence, folder_ / name);
+        const MeshSequence again = read_sequence(folder_ / name, {neutral, 25, ""});
+        EXPECT_EQ(again.mesh.face_vertices, sequence.mesh.face_vertices);
+        expect_equal(again, sequence);
+    }
+    expect_equal(read_sequence(folder_ / "baked.mdd", {neutral, 0, ""}), sequence);
+}
+
+TEST_F(Read, frames_of_a_folder_come_in_the_order_of_their_numbers) {
+    const fs::path frames = folder_ / "frames";
+    fs::create_directory(frames);
+    const auto frame = [&](const std::string& name, const std::string& x) {
+        file(fs::path("frames") / name, "v 0 0 " + x + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    };
+    frame("smile10.obj", "10");
+    frame("smile9.obj", "9");
+    frame("smile009.OBJ", "8");
+    frame("smile011.obj", "11");
+    file("frames/notes.txt", "none of them");
+    const MeshSequence sequence = read_sequence(frames, {{}, 10, ""});
+    std::vector<float> order;
+    for (std::size_t row = 0; row < sequence.times.size(); ++row) {
+        std::vector<Vec3f> positions(3);
+        sequence.positions(row, positions);
+        order.push_back(positions[0].z);
+    }
+    EXPECT_THAT(order, testing::ElementsAre(8, 9, 10, 11));
+    EXPECT_DOUBLE_EQ(sequence.times[3], 0.3);
+}
+
+TEST_F(Read, a_frame_of_another_topology_is_named) {
+    fs::create_directory(folder_ / "frames");
+    file("frames/1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n");
+    const auto refused = [&](const std::string& second) {
+        const fs::path frame = file("frames/2.obj", second);
+        const std::string sentence = refusal([&] { read_sequence(folder_ / "frames", {{}, 25, ""}); }).sentence;
+        EXPECT_THAT(sentence, StartsWith(frame.string()));
+        return sentence.substr(std::min(sentence.size(), frame.string().size()));
+    };
+    EXPECT_EQ(refused(triangle), ": expected 4 vertices as in 1.obj, found 3");
+    EXPECT_EQ(refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n"),
+              ": expected 1 faces as in 1.obj, found 2");
+    EXPECT_EQ(refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4\n"),
+              ": expected face 0 to have the corners it has in 1.obj, found others");
+    EXPECT_THAT(refused("v 0 0 x\n"), HasSubstr("line 1"));
+}
+
+TEST_F(Read, a_sequence_without_what_it_needs_is_refused_with_its_name) {
+    fs::create_directory(folder_ / "empty");
+    fs::create_directory(folder_ / "frames");
+    file("frames/1.obj", triangle);
+    const fs::path cache = file("a.mdd", "1234567"), head = file("head.obj", triangle),
+                   glb = file("a.gltf", gltf("a.bin"));
+    file("a.bin", gltf_positions());
+    const auto refused = [&](const fs::path& path, const SequenceOptions& options) {
+        const Refusal found = refusal([&] { read_sequence(path, options); });
+        EXPECT_THAT(found.sentence, StartsWith(path.string()));
+        EXPECT_EQ(found.kind, Error::Kind::input);
+        return found.sentence;
+    };
+    EXPECT_THAT(refused(folder_ / "empty", {{}, 25, ""}),
+                HasSubstr("OBJ or PLY files in the folder, one a row, found none"));
+    EXPECT_THAT(refused(folder_ / "frames", {}), HasSubstr("expected the rows per second to be given"));
+    EXPECT_THAT(refused(cache, {}), HasSubstr("expected the head they belong to, found none"));
+    EXPECT_THAT(refused(cache, {head, 0, ""}), HasSubstr("mdd byte 7"));
+    EXPECT_THAT(refused(glb, {}), HasSubstr("expected an animation, found none"));
+    EXPECT_THAT(refused(head, {}), HasSubstr("expected a file that ends in"));
+    EXPECT_THAT(read_animations(glb), testing::IsEmpty());
+    EXPECT_EQ(refusal([&] { read_sequence(folder_ / "none.glb"); }).kind, Error::Kind::access);
 }
 
 }  // namespace

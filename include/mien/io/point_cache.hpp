@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <span>
 #include <vector>
@@ -27,6 +28,16 @@ void format_pc2(const MeshSequence& sequence, std::ostream& out);
 /// header says, another number of vertices than the head's, numbers that are not finite, and times that do not rise.
 MeshSequence parse_mdd(std::vector<std::byte> bytes, Mesh head, double rate = 0);
 MeshSequence parse_pc2(std::vector<std::byte> bytes, Mesh head, double rate);
+
+/// What a point cache holds.
+struct PointCacheContent {
+    std::uint32_t rows = 0, vertices = 0;
+    std::vector<double> times;  ///< of an MDD: seconds from the first row, one per row
+};
+
+/// What a cache says of itself, checked as above but for the head.
+PointCacheContent check_mdd(std::vector<std::byte> bytes);
+PointCacheContent check_pc2(std::vector<std::byte> bytes);
 
 /// One OBJ with the row's positions, the mesh's polygons, groups and texture coordinates.
 void format_obj(const Mesh& mesh, std::span<const Vec3f> positions, std::ostream& out);

@@ -12,6 +12,7 @@
 #include "mien/io/fba.hpp"
 #include "mien/io/fdp_text.hpp"
 #include "mien/io/gltf.hpp"
+#include "mien/io/point_cache.hpp"
 #include "mien/io/points.hpp"
 #include "mien/io/sequence.hpp"
 #include "mien/measured_point.hpp"
@@ -21,9 +22,9 @@
 
 namespace mien {
 
-/// Reads a head by its extension: .glb .gltf .obj .off .ply. Throws Error whose sentence starts with the file's name;
-/// Kind::access when the file cannot be read. A mesh whose faces all lie on a point or a line is refused. A .gltf may
-/// name files in its own folder and below, nothing else; a picture that is not there is named in `Mesh::left_out`.
+/// Reads a head by its extension: .glb .gltf .fbx .obj .off .ply. Throws Error whose sentence starts with the file's
+/// name; Kind::access when the file cannot be read. A mesh whose faces all lie on a point or a line is refused. A .gltf
+/// may name files in its own folder and below, nothing else; a picture that is not there is named in `Mesh::left_out`.
 Mesh read_mesh(const std::filesystem::path& path);
 
 /// Reads what a file shows by its extension, as `read_mesh` does: `parse_scene` for .glb and .gltf, `scene_of` for the
@@ -40,6 +41,9 @@ MeshSequence read_sequence(const std::filesystem::path& path, const SequenceOpti
 
 /// What a file of animated heads holds (.glb .gltf .fbx), one entry per animation; none where nothing moves.
 std::vector<Animation> read_animations(const std::filesystem::path& path);
+
+/// What a point cache holds (.mdd .pc2).
+PointCacheContent read_cache_content(const std::filesystem::path& path);
 
 /// Reads a take by its extension: .trc .csv .c3d.
 Take read_take(const std::filesystem::path& path);

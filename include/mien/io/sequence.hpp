@@ -18,7 +18,7 @@ namespace mien {
 /// How an animated head is read.
 struct SequenceOptions {
     std::filesystem::path head;  ///< the neutral head of a point cache (.mdd .pc2), which holds positions alone
-    /// Rows per second, above 0; 0: the rows of the file where it has some (keys of all channels at the same times, 12
+    /// Rows per second, above 0; 0: the rows of the file where it has some (keys of all channels at the same times, 8
     /// a second or more; the times of an .mdd), the rate of the keys where those lie apart, else 30. A .pc2, a folder
     /// and an .mdd whose times do not rise state none, and need one.
     double rate = 0;
