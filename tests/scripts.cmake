@@ -36,6 +36,11 @@ if(TARGET mien_cli)
   script_test(cli.animated_heads ${CMAKE_CURRENT_SOURCE_DIR}/cli/sequence_test.py)
   set_tests_properties(cli.animated_heads PROPERTIES ENVIRONMENT ${program})
 
+  script_test(python.calling ${CMAKE_CURRENT_SOURCE_DIR}/python/calling_test.py)
+  script_test(blender.zip ${CMAKE_CURRENT_SOURCE_DIR}/python/addon_zip_test.py)
+  script_test(maya.commands ${CMAKE_CURRENT_SOURCE_DIR}/maya/maya_test.py)
+  set_tests_properties(python.calling blender.zip maya.commands PROPERTIES ENVIRONMENT ${program})
+
   # The README's fragment: compiled and linked as it stands, and run beside the samples it names.
   set(fragment ${CMAKE_CURRENT_BINARY_DIR}/readme)
   file(MAKE_DIRECTORY ${fragment})

@@ -11,7 +11,7 @@ LINK = re.compile(r"\]\(([^)#\s]+)[^)]*\)")
 
 
 def complaints(root):
-    seen = rule.files(root, ("*.md",), ("docs", "samples", "examples", "bench")) + \
+    seen = rule.files(root, ("*.md",), ("docs", "samples", "examples", "bench", "maya")) + \
         [path.relative_to(root) for path in sorted(root.glob("*.md"))]
     sentences = []
     for path in seen:

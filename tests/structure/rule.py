@@ -5,7 +5,7 @@ import pathlib
 import sys
 
 SOURCE = ("*.cpp", "*.hpp")
-FOLDERS = ("include", "src", "cli", "tests", "samples", "fuzz", "bench", "examples")
+FOLDERS = ("include", "src", "cli", "tests", "samples", "fuzz", "bench", "examples", "python", "blender", "maya")
 
 
 def files(root, patterns=SOURCE, folders=FOLDERS):
