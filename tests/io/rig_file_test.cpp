@@ -11,6 +11,7 @@
 
 #include "io/glb.hpp"
 #include "io/hostile.hpp"
+#include "refusal.hpp"
 #include "shapes.hpp"
 
 #include "mien/error.hpp"
@@ -139,12 +140,7 @@ void expect_same(const Rig& a, const Rig& b) {
 std::string refusal(const std::function<void(GltfDocument&, json& extension)>& change, const Mesh& mesh = polygons()) {
     GltfDocument document = parse_glb(format_rig(mesh, rig_of(mesh), rigged(mesh).skin));
     change(document, document.json["extensions"]["MIEN_rig"]);
-    try {
-        parse_rig(format_glb(document));
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+    return mien::refusal([&] { parse_rig(format_glb(document)); });
 }
 
 // The same with one number of an array changed.
