@@ -38,6 +38,7 @@ double distance(const Lab& p, const Lab& q) {
 
 TEST(HeatColour, takes_equal_steps_for_equal_differences_of_value) {
     std::vector<double> steps;
+    steps.reserve(20);
     for (int i = 0; i < 20; ++i)
         steps.push_back(distance(oklab(colour_at(ColourScale::heat, i / 20.0)),
                                  oklab(colour_at(ColourScale::heat, (i + 1) / 20.0))));

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "mien/error.hpp"
+#include "refusal.hpp"
 
 namespace mien {
 namespace {
@@ -21,12 +21,7 @@ FitTarget copied(int fap, double times = 1) {
 }
 
 std::string refusal(const FapInterpolation& fit) {
-    try {
-        interpolated_faps(fit);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+    return mien::refusal([&] { interpolated_faps(fit); });
 }
 
 std::array<std::int32_t, fap_count> values(std::initializer_list<std::pair<int, int>> amounts) {

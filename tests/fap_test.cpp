@@ -45,7 +45,7 @@ std::string name_of(FapUnit unit) {
 
 std::string axis_of(const Fap& fap) {
     constexpr std::array names{"", "X", "Y", "Z", "rotX", "rotY", "rotZ", "scale", "roll"};
-    const std::string name = names[static_cast<std::size_t>(fap.axis)];
+    std::string name = names[static_cast<std::size_t>(fap.axis)];
     if (fap.axis == FapAxis::none || fap.axis == FapAxis::scale || fap.axis == FapAxis::roll) return name;
     return (fap.sign > 0 ? "+" : "-") + name;
 }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include "algorithms/area_vector.hpp"
+#include "algorithms/flipped_faces.hpp"
 #include "algorithms/margins.hpp"
 
 #include "mien/error.hpp"
@@ -17,7 +17,6 @@ namespace mien {
 namespace {
 
 constexpr std::size_t places_along_a_slit = 19;
-constexpr double least_motion = 0.002;  // in eye distances
 
 using Positions = std::vector<Vec3f>;
 
@@ -86,31 +85,21 @@ std::optional<double> upper_lip_share(const Face& face, std::span<const MorphTar
 }
 
 void count_flipped(const Face& face, std::span<const MorphTarget> shapes, ShapesCheck& check) {
-    const float least = static_cast<float>(least_motion * eye_distance(face.points));
+    const double least = least_motion * eye_distance(face.points);
     const Positions& rest = face.mesh.positions;
-    std::size_t all_moved = 0, all_flipped = 0;
+    FlippedFaces all;
     for (const MorphTarget& shape : shapes) {
         Positions positions = rest;
         add(shape, positions);
         const MorphTarget* with = shape.name == "mouthClose" ? find(shapes, "jawOpen") : nullptr;
         if (with != nullptr) add(*with, positions);
-        std::size_t moved = 0, flipped = 0;
-        for (std::size_t f = 0; f < face_count(face.mesh); ++f) {
-            const auto corners = mien::face(face.mesh, f);
-            if (std::none_of(corners.begin(), corners.end(),
-                             [&](std::uint32_t v) { return distance(positions[v], rest[v]) > least; }))
-                continue;
-            ++moved;
-            flipped += dot(area_vector(rest, corners), area_vector(positions, corners)) < 0 ? 1U : 0U;
-        }
-        all_moved += moved;
-        all_flipped += flipped;
-        const double share = moved > 0 ? static_cast<double>(flipped) / static_cast<double>(moved) : 0;
-        if (share <= check.most_flipped_share) continue;
-        check.most_flipped_share = share;
+        const FlippedFaces faces = flipped_faces(face.mesh, rest, positions, least);
+        all += faces;
+        if (share(faces) <= check.most_flipped_share) continue;
+        check.most_flipped_share = share(faces);
         check.most_flipped = shape.name;
     }
-    if (all_moved > 0) check.flipped = static_cast<double>(all_flipped) / static_cast<double>(all_moved);
+    check.flipped = share(all);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 #include <span>
 #include <string_view>
 
-#include "algorithms/area_vector.hpp"
 #include "algorithms/face_regions.hpp"
+#include "algorithms/flipped_faces.hpp"
 #include "algorithms/margins.hpp"
 
 #include "mien/algorithms/deform.hpp"
@@ -25,7 +25,6 @@ namespace mien {
 
 namespace {
 
-constexpr double least_motion = 0.002;  // in eye distances
 constexpr std::size_t places_along_a_slit = 19;
 
 using Positions = std::vector<Vec3f>;
@@ -104,26 +103,6 @@ void add(Sums& sums, double error, double motion, double eyes) {
     if (motion > least_motion * least_motion * eyes * eyes) sums.moving.push_back(here);
 }
 
-struct FaceCount {
-    std::size_t moving = 0, flipped = 0;
-};
-
-FaceCount count_faces(const Ground& ground, const Positions& truth, const Positions& found) {
-    const Mesh& mesh = ground.face.mesh;
-    const double least = least_motion * least_motion * ground.eyes * ground.eyes;
-    FaceCount count;
-    for (std::size_t f = 0; f < face_count(mesh); ++f) {
-        const auto corners = face(mesh, f);
-        if (std::none_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
-                return squared(truth[v], mesh.positions[v]) > least || squared(found[v], mesh.positions[v]) > least;
-            }))
-            continue;
-        ++count.moving;
-        if (dot(area_vector(truth, corners), area_vector(found, corners)) < 0) ++count.flipped;
-    }
-    return count;
-}
-
 double opening(const Ground& ground, const Slit& slit, const Opposite& at, const Positions& positions) {
     const auto place = [&](std::uint32_t p) { return to_double(positions[ground.weld.vertex[p]]); };
     return dot(slit.margin.up, value_on(at.upper, place) - value_on(at.lower, place)) / ground.eyes;
@@ -144,7 +123,7 @@ void measure_contact(const Ground& ground, const Positions& truth, const Positio
 struct Totals {
     Sums all;
     std::array<Sums, region_names.size()> regions;
-    FaceCount faces;
+    FlippedFaces faces;
 };
 
 RegionFigures figures_of(std::size_t region, Sums& sums) {
@@ -162,13 +141,13 @@ ShapeFigures measure(const Ground& ground, const std::string& name, const Positi
         add(all, error, motion, ground.eyes);
         add(regions[ground.region[v]], error, motion, ground.eyes);
     }
-    const FaceCount faces = count_faces(ground, truth, found);
+    const FlippedFaces faces = flipped_faces(ground.face.mesh, truth, found, least_motion * ground.eyes);
     ShapeFigures figures;
     figures.shape = name;
     figures.error = share(all.error, all.motion);
     figures.p95 = percentile_95(all.moving);
     figures.max = all.max;
-    figures.flipped = faces.moving > 0 ? static_cast<double>(faces.flipped) / static_cast<double>(faces.moving) : 0;
+    figures.flipped = share(faces);
     measure_contact(ground, truth, found, figures);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         if (regions[r].vertices == 0) continue;
@@ -178,8 +157,7 @@ ShapeFigures measure(const Ground& ground, const std::string& name, const Positi
     }
     totals.all.error += all.error;
     totals.all.motion += all.motion;
-    totals.faces.moving += faces.moving;
-    totals.faces.flipped += faces.flipped;
+    totals.faces += faces;
     return figures;
 }
 
@@ -209,8 +187,7 @@ void sum_up(const Totals& totals, Evaluation& evaluation) {
         evaluation.crossing = std::max(evaluation.crossing, shape.crossing);
     }
     evaluation.pooled = share(totals.all.error, totals.all.motion);
-    if (totals.faces.moving > 0)
-        evaluation.flipped = static_cast<double>(totals.faces.flipped) / static_cast<double>(totals.faces.moving);
+    evaluation.flipped = share(totals.faces);
     add_regions(totals, evaluation);
 }
 

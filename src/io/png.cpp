@@ -56,25 +56,29 @@ void take_bytes(png_structp png, png_bytep to, std::size_t size) {
 
 void pass_over(png_structp, png_const_charp) {}
 
-// libpng's two structs for reading, destroyed with this one.
-struct Reader {
-    png_structp png = nullptr;
-    png_infop info = nullptr;
-    explicit Reader(Source& source) {
-        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source.complaint, stop, pass_over);
-        if (png != nullptr) info = png_create_info_struct(png);
-    }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+// libpng's two structs, for reading or for writing as `made` says; destroyed with this one by `destroy`.
+struct Structs {
+    using Destroy = void (*)(png_structpp, png_infopp);
+    png_structp png;
+    png_infop info;
+    Destroy destroy;
+    Structs(png_structp made, Destroy by)
+        : png(made), info(made != nullptr ? png_create_info_struct(made) : nullptr), destroy(by) {}
+    Structs(const Structs&) = delete;
+    Structs& operator=(const Structs&) = delete;
+    ~Structs() { destroy(&png, &info); }
 };
+
+void destroy_reader(png_structpp png, png_infopp info) {
+    png_destroy_read_struct(png, info, nullptr);
+}
 
 [[noreturn]] void refuse(const Source& source) {
     throw Error(fmt::format("png byte {}: expected a picture, found {}", source.at, shown(source.complaint.data())));
 }
 
 // Everything in front of the pixels; false when libpng gave up.
-bool read_header(const Reader& reader, Source& source) {
+bool read_header(const Structs& reader, Source& source) {
     if (setjmp(png_jmpbuf(reader.png))) return false;
     png_set_read_fn(reader.png, &source, take_bytes);
     png_set_user_limits(reader.png, 1U << 24U, 1U << 24U);
@@ -87,7 +91,7 @@ bool read_header(const Reader& reader, Source& source) {
 }
 
 // Rows of red, green, blue and alpha of 8 bits each, whatever the file holds.
-bool read_pixels(const Reader& reader, std::uint8_t* rgba, std::size_t row_size, std::uint32_t height) {
+bool read_pixels(const Structs& reader, std::uint8_t* rgba, std::size_t row_size, std::uint32_t height) {
     if (setjmp(png_jmpbuf(reader.png))) return false;
     png_set_expand(reader.png);
     png_set_scale_16(reader.png);
@@ -103,7 +107,7 @@ bool read_pixels(const Reader& reader, std::uint8_t* rgba, std::size_t row_size,
     return true;
 }
 
-void check_stated_size(const Reader& reader, std::uint32_t width, std::uint32_t height, std::size_t bytes) {
+void check_stated_size(const Structs& reader, std::uint32_t width, std::uint32_t height, std::size_t bytes) {
     if (std::uint64_t{width} * height > most_pixels)
         throw Error(fmt::format("png: expected at most {} pixels, found {} x {}", most_pixels, width, height));
     const std::uint64_t bits = std::uint64_t{png_get_bit_depth(reader.png, reader.info)} *
@@ -126,25 +130,13 @@ void put_bytes(png_structp png, png_bytep from, std::size_t size) {
 
 void put_nothing(png_structp) {}
 
-struct Writer {
-    png_structp png = nullptr;
-    png_infop info = nullptr;
-    explicit Writer(Sink& sink) {
-        png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink.complaint, stop, pass_over);
-        if (png != nullptr) info = png_create_info_struct(png);
-    }
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
-    ~Writer() { png_destroy_write_struct(&png, &info); }
-};
-
 bool is_opaque(const Picture& picture) {
     for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
         if (picture.rgba[i] != 255) return false;
     return true;
 }
 
-bool write_pixels(const Writer& writer, Sink& sink, const Picture& picture, bool opaque) {
+bool write_pixels(const Structs& writer, Sink& sink, const Picture& picture, bool opaque) {
     if (setjmp(png_jmpbuf(writer.png))) return false;
     png_set_write_fn(writer.png, &sink, put_bytes, put_nothing);
     png_set_user_limits(writer.png, 0x7fffffff, 0x7fffffff);
@@ -168,7 +160,8 @@ Picture parse_png(std::span<const std::byte> bytes) {
     if (bytes.size() < signature_size ||
         png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, signature_size) != 0)
         throw Error("png byte 0: expected the signature of a PNG, found other bytes");
-    const Reader reader(source);
+    const Structs reader(png_create_read_struct(PNG_LIBPNG_VER_STRING, &source.complaint, stop, pass_over),
+                         destroy_reader);
     if (reader.info == nullptr) throw Error("png: expected memory for a picture, found none");
     if (!read_header(reader, source)) refuse(source);
     Picture picture{png_get_image_width(reader.png, reader.info), png_get_image_height(reader.png, reader.info), {}};
@@ -183,7 +176,8 @@ std::vector<std::byte> format_png(const Picture& picture) {
         throw Error(fmt::format("png: expected 4 numbers for each of {} x {} pixels, found {}", picture.width,
                                 picture.height, picture.rgba.size()));
     Sink sink;
-    const Writer writer(sink);
+    const Structs writer(png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink.complaint, stop, pass_over),
+                         png_destroy_write_struct);
     if (writer.info == nullptr || !write_pixels(writer, sink, picture, is_opaque(picture)))
         throw Error(
             fmt::format("png: cannot write {} x {} pixels: {}", picture.width, picture.height, sink.complaint.data()));

@@ -26,11 +26,12 @@ using testing::IsEmpty;
 using Frames = std::vector<std::vector<Vec3f>>;
 
 // A sequence that plays displacements: one entry per row and vertex.
-MeshSequence playing(Mesh mesh, const Frames& moved) {
+MeshSequence playing(Mesh mesh, Frames moved) {
     std::vector<double> times;
     for (std::size_t r = 0; r < moved.size(); ++r) times.push_back(static_cast<double>(r) / 60);
     const std::vector<Vec3f> neutral = mesh.positions;
-    return {std::move(mesh), std::move(times), [neutral, moved](std::size_t row, std::span<Vec3f> positions) {
+    return {std::move(mesh), std::move(times),
+            [neutral, moved = std::move(moved)](std::size_t row, std::span<Vec3f> positions) {
                 for (std::size_t v = 0; v < neutral.size(); ++v) positions[v] = neutral[v] + moved[row][v];
             }};
 }

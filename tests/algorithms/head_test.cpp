@@ -14,6 +14,8 @@
 #include <limits>
 #include <random>
 
+#include "refusal.hpp"
+
 #include "mien/error.hpp"
 #include "mien/io/trc.hpp"
 
@@ -106,18 +108,8 @@ Take put_back(Take take) {
     return take;
 }
 
-template <class F>
-std::string sentence_of(F&& f) {
-    try {
-        f();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 std::string refusal(const Take& take, const HeadOptions& options) {
-    return sentence_of([&] { (void)remove_head_motion(take, options); });
+    return mien::refusal([&] { (void)remove_head_motion(take, options); });
 }
 
 TEST(HeadMotion, refuses_markers_that_are_absent_too_few_or_on_a_line) {

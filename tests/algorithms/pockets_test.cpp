@@ -164,11 +164,12 @@ TEST(Pockets, TheFaceMovesAsIfTheyWereNotThere) {
     const Face whole = purse(true);
     Face outside{{}, whole.points};
     outside.mesh.positions = whole.mesh.positions;
-    for (std::size_t f = 0; f < lip_ring * sectors; ++f) add_face(outside.mesh, face(whole.mesh, f));
+    for (std::uint32_t f = 0; f < lip_ring * sectors; ++f) add_face(outside.mesh, face(whole.mesh, f));
     const BiharmonicOptions all{.influences = 0};
     const Rig with = rig_biharmonic(whole, all), without = rig_biharmonic(outside, all);
-    const std::uint32_t seen = with.row_starts[(lip_ring + 1) * sectors];
-    ASSERT_EQ(without.row_starts[(lip_ring + 1) * sectors], seen);
+    constexpr std::uint32_t seen_vertices = (lip_ring + 1) * sectors;
+    const std::uint32_t seen = with.row_starts[seen_vertices];
+    ASSERT_EQ(without.row_starts[seen_vertices], seen);
     for (std::uint32_t e = 0; e < seen; ++e) EXPECT_EQ(with.weights[e], without.weights[e]);
     EXPECT_GT(with.weights.size(), seen);
 }

@@ -263,10 +263,10 @@ TEST_F(RealFaces, noise_and_roughness_pass_as_they_are) {
         std::string line = fmt::format("{:22} noise gain mean, worst, roughness:", way.name);
         for (const auto& [name, target] : targets) {
             const Take out = faces::performed(noisy, target, way.options);
-            const Take in = [&] {
+            const Take in = [&, &wanted = target] {
                 Points shared;
                 for (const auto& [id, p] : source)
-                    if (target.contains(id)) shared[id] = p;
+                    if (wanted.contains(id)) shared[id] = p;
                 return faces::take_of(shared, faces::recording("jm-slate3.csv"));
             }();
             double all = 0, worst = 0;

@@ -17,6 +17,8 @@
 #include <optional>
 #include <sstream>
 
+#include "refusal.hpp"
+
 #include "mien/error.hpp"
 #include "mien/io/obj.hpp"
 
@@ -88,16 +90,6 @@ double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b
     return largest;
 }
 
-template <class F>
-std::string sentence_of(F&& f) {
-    try {
-        f();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 constexpr Reading readings[] = {Reading::paper, Reading::remedied};
 const RetargetOptions paper{RetargetMethod::rbf, Reading::paper, {}};
 const RetargetOptions network{RetargetMethod::rbf, Reading::remedied, {}};
@@ -115,7 +107,7 @@ Vec3 turned(const Vec3& p) {
 TEST(FitRetarget, refuses_a_take_and_a_face_without_common_points) {
     Face face = face_with(face_points());
     for (FeaturePoint& point : face.points) point.id = "other " + point.id;
-    EXPECT_THAT(sentence_of([&] { (void)fit_retarget(take_of(face_points()), face); }),
+    EXPECT_THAT(refusal([&] { (void)fit_retarget(take_of(face_points()), face); }),
                 HasSubstr("found none among 21 columns of the take and 21 points of the face"));
 }
 
@@ -124,12 +116,12 @@ TEST(FitRetarget, refuses_coinciding_points_of_either_side_by_name) {
         std::vector<Vec3> points = face_points();
         points[7] = points[4] + Vec3{1e-6, 0, 0};
         EXPECT_THAT(
-            sentence_of([&] {
+            refusal([&] {
                 (void)fit_retarget(take_of(points), face_with(face_points()), {RetargetMethod::rbf, reading, {}});
             }),
             HasSubstr("found p4 and p7 at the same place"));
         EXPECT_THAT(
-            sentence_of([&] {
+            refusal([&] {
                 (void)fit_retarget(take_of(face_points()), face_with(points), {RetargetMethod::rbf, reading, {}});
             }),
             HasSubstr("of the face"));
@@ -360,7 +352,7 @@ TEST(Retarget, the_neutral_row_comes_out_as_the_targets_neutral) {
 
 TEST(Retarget, refuses_a_take_without_a_column_of_the_map) {
     const Retarget map = fit_retarget(take_of(face_points()), face_with(face_points()));
-    EXPECT_THAT(sentence_of([&] { (void)retarget(map, take_of(face_points(20))); }),
+    EXPECT_THAT(refusal([&] { (void)retarget(map, take_of(face_points(20))); }),
                 HasSubstr("expected a column p20 in the take"));
 }
 

@@ -5,6 +5,7 @@
 // cannot is refused with a sentence.
 
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -84,7 +85,7 @@ TEST_F(RigDegenerate, WhatIsAcceptedIsRiggedAndWhatIsRejectedIsRefused) {
         if (!is_points && extension != ".obj" && extension != ".glb") continue;
         if (verdict == "either") continue;
         with_every_rigger([&, path = file, expected = verdict](const std::string& method, const RigOptions& options) {
-            SCOPED_TRACE(path + " with " + method);
+            SCOPED_TRACE(fmt::format("{} with {}", path, method));
             const auto rig_it = [&] {
                 posed(is_points ? load("degenerate/00_base.obj", path) : load(path), method, options);
             };

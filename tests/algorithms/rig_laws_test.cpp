@@ -98,7 +98,7 @@ Face closed_lips() {
         lower.push_back(static_cast<std::uint32_t>(vertex_count(face.mesh)));
         face.mesh.positions.push_back(face.mesh.positions[upper(i)] - Vec3f{0, 0, 1e-3F});
     }
-    for (std::size_t f = 6 * 24; f < 7 * 24; ++f)
+    for (std::uint32_t f = 6 * 24; f < 7 * 24; ++f)
         for (std::uint32_t c = face.mesh.face_starts[f]; c < face.mesh.face_starts[f + 1]; ++c)
             if (std::uint32_t& v = face.mesh.face_vertices[c]; v >= upper(7) && v <= upper(17)) v = lower[v - upper(7)];
     const auto add = [&](const char* id, std::uint32_t v) {

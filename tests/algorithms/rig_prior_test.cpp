@@ -8,6 +8,7 @@
 #include <limits>
 #include <tbb/global_control.h>
 
+#include "refusal.hpp"
 #include "shapes.hpp"
 
 #include "mien/algorithms/deform.hpp"
@@ -259,12 +260,7 @@ TEST_F(RigPrior, ShapesOfOthersBesideOwnOnesAreNoShapesOfTheRig) {
 
 TEST_F(RigPrior, ExamplesThatTeachNothingOrNonsenseAreRefused) {
     const auto refusal = [&](const MorphTarget& shape) {
-        try {
-            rig_prior(face, {{shape}, {}});
-        } catch (const Error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return mien::refusal([&] { rig_prior(face, {{shape}, {}}); });
     };
     EXPECT_THAT(refusal({"none", {}, {}}), testing::HasSubstr("expected an example shape that moves the skin"));
     EXPECT_THAT(refusal({"far", {625}, {{1, 0, 0}}}), testing::HasSubstr("\"far\": expected vertices below 625"));

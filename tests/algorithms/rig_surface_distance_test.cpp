@@ -206,10 +206,10 @@ TEST(SmoothWeights, KeepsWeightsThatAreTheSameEverywhere) {
 TEST(SmoothWeights, FadesAlongAStripAsTheEquationOfHeatDoes) {
     // One implicit step for the time t from nothing but a held end solves w - t w'' = 0: w = cosh((l - x) / sqrt t) /
     // cosh(l / sqrt t) with a free end at l.
-    constexpr std::uint32_t quads = 400;
+    constexpr std::uint32_t quads = 400, vertices = 2 * (quads + 1);
     Mesh mesh = shapes::grid(quads, 1, 0.01F);
     WeightRows rows;
-    for (std::uint32_t p = 0; p < 2 * (quads + 1); ++p) {
+    for (std::uint32_t p = 0; p < vertices; ++p) {
         if (p % (quads + 1) == 0) {
             rows.points.push_back(p == 0 ? 0 : 1);
             rows.weights.push_back(1);
@@ -217,7 +217,7 @@ TEST(SmoothWeights, FadesAlongAStripAsTheEquationOfHeatDoes) {
         rows.starts.push_back(static_cast<std::uint32_t>(rows.points.size()));
     }
     const std::vector<HeldPlace> held{{0, 0}, {quads + 1, 1}};
-    const WeightRows smooth = smooth_weights(rows, mesh, weld(mesh), std::vector<bool>(2 * (quads + 1), true), held, 1);
+    const WeightRows smooth = smooth_weights(rows, mesh, weld(mesh), std::vector<bool>(vertices, true), held, 1);
     for (const std::uint32_t i : {50U, 100U, 200U, 400U}) {
         double sum = 0;
         for (std::uint32_t e = smooth.starts[i]; e < smooth.starts[i + 1]; ++e) sum += smooth.weights[e];

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "refusal.hpp"
+
 #include "mien/error.hpp"
 
 namespace mien {
@@ -44,16 +46,6 @@ double largest_difference(const Take& a, const Take& b) {
             largest = std::isnan(d) ? d : std::max(largest, d);
         }
     return largest;
-}
-
-template <class F>
-std::string sentence_of(F&& f) {
-    try {
-        f();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 // Two markers a unit apart, at rest, in two columns.
@@ -214,7 +206,7 @@ double leak(const Take& filtered, const Take& original) {
 
 TEST(LowPass, refuses_a_cut_off_that_the_frames_cannot_carry) {
     const Take take = track(50, 60, rest);
-    EXPECT_THAT(sentence_of([&] { (void)low_pass(take, {.cutoff = 30}); }),
+    EXPECT_THAT(refusal([&] { (void)low_pass(take, {.cutoff = 30}); }),
                 HasSubstr("half the frame rate of 60 Hz, found 30"));
     for (const double cutoff : {0.0, -1.0, std::nan(""), 31.0})
         EXPECT_THROW((void)low_pass(take, {.cutoff = cutoff}), Error);
@@ -291,7 +283,7 @@ TEST(LowPass, a_hole_in_the_times_of_the_file_is_not_filled_with_work) {
 
 TEST(Neutral, refuses_rows_that_are_not_there) {
     const Take take = track(5, 60, rest);
-    EXPECT_THAT(sentence_of([&] { (void)neutral(take, {.row = 3, .rows = 3}); }), HasSubstr("the take's 5 rows"));
+    EXPECT_THAT(refusal([&] { (void)neutral(take, {.row = 3, .rows = 3}); }), HasSubstr("the take's 5 rows"));
     EXPECT_THROW((void)neutral(take, {.row = 5, .rows = 1}), Error);
     EXPECT_THROW((void)neutral(take, {.row = 1, .rows = 0}), Error);
     EXPECT_THROW((void)neutral(take, {.row = 1, .rows = std::numeric_limits<std::size_t>::max()}), Error);

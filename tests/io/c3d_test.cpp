@@ -110,8 +110,9 @@ TEST(C3d, ACutFileGivesItsWholeFramesAndSaysWhatIsMissing) {
     contents.last = 100;
     contents.frames.assign(100, {{1, 2, 3, 0}, {4, 5, 6, 0}});
     const std::string whole = c3d::file(contents);
-    const std::size_t data = whole.size() - (100 * 36 + 511) / 512 * 512;
-    const Take take = parse(whole.substr(0, data + 36 * 60 + 17));
+    constexpr std::size_t frame = 36;
+    const std::size_t data = whole.size() - (100 * frame + 511) / 512 * 512;
+    const Take take = parse(whole.substr(0, data + 60 * frame + 17));
     EXPECT_EQ(row_count(take), 60U);
     EXPECT_EQ(take.missing_rows, 40U);
     EXPECT_THAT(refusal(whole.substr(0, data + 20)), HasSubstr("found no whole one"));

@@ -19,7 +19,6 @@ namespace mien {
 namespace {
 
 using nlohmann::json;
-using testing::Contains;
 using testing::ElementsAre;
 
 void keep(const char* name, const GltfDocument& document) {

@@ -8,6 +8,7 @@
 
 #include "io/gltf_text.hpp"
 #include "io/hostile.hpp"
+#include "refusal.hpp"
 
 namespace mien {
 namespace {
@@ -35,12 +36,7 @@ GltfDocument load(const json& root, Folder& folder) {
 
 std::string refusal(const json& root) {
     Folder none;
-    try {
-        load(root, none);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+    return mien::refusal([&] { load(root, none); });
 }
 
 std::string_view view_text(const GltfDocument& document, std::size_t view) {

@@ -107,8 +107,9 @@ std::vector<Pose> poses_in_row(const Performer& p, std::size_t r) {
 
 // The skin as its header defines it.
 Vec3 skinned(const Performer& p, std::uint32_t v, const std::vector<Pose>& poses) {
+    const std::size_t influences = p.skin.influences;
     Vec3 sum;
-    for (std::size_t k = v * p.skin.influences; k < (v + 1) * std::size_t{p.skin.influences}; ++k) {
+    for (std::size_t k = v * influences; k < (v + 1) * influences; ++k) {
         const std::size_t joint = p.skin.joints[k];
         const Vec3 origin = joint_origin(p.rig, joint);
         sum += double{p.skin.weights[k]} * (origin + apply(poses[joint], to_double(p.mesh.positions[v]) - origin));

@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include "io/promise.hpp"
+#include "refusal.hpp"
 
 #include "mien/error.hpp"
 
@@ -52,12 +53,7 @@ auto attempt(const Parse& parse, std::string_view text) -> std::optional<decltyp
 template <class Parse>
 std::string refusal(const Parse& parse, std::string_view text) {
     const Copy copy(text);
-    try {
-        parse(copy.bytes());
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+    return mien::refusal([&] { parse(copy.bytes()); });
 }
 
 /// Every prefix of the text, and the text with every byte one up, one down, 0 and 255: refused or as promised.

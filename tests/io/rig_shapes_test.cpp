@@ -12,6 +12,7 @@
 #include "io/glb.hpp"
 #include "io/gltf_player.hpp"
 #include "io/promise.hpp"
+#include "refusal.hpp"
 #include "shapes.hpp"
 
 #include "mien/algorithms/deform.hpp"
@@ -136,12 +137,7 @@ std::string refusal(const std::function<void(GltfDocument&, json& prior)>& chang
     static const Bytes file = Head().file();
     GltfDocument document = parse_glb(file);
     change(document, document.json["extensions"]["MIEN_rig"]["prior"]);
-    try {
-        parse_rig(format_glb(document));
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
+    return mien::refusal([&] { parse_rig(format_glb(document)); });
 }
 
 // The same with one number of an array changed.

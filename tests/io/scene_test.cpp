@@ -29,7 +29,6 @@ namespace mien {
 namespace {
 
 using namespace gltf_text;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
