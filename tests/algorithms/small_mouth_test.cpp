@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
-#include "retarget_faces.hpp"
 #include "algorithms/generic_face.hpp"
+#include "retarget_faces.hpp"
 
 #include "mien/algorithms/head.hpp"
 #include "mien/algorithms/tracks.hpp"
