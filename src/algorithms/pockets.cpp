@@ -19,8 +19,6 @@
 #include <utility>
 
 #include "algorithms/island.hpp"
-#include "algorithms/laplacian.hpp"
-#include "algorithms/sparse_solve.hpp"
 
 #include "mien/algorithms/surface_distance.hpp"
 
@@ -67,35 +65,18 @@ std::vector<bool> fillings(const Face& face, const Weld& weld, const std::vector
     return marked;
 }
 
-Vec3 middle_of(std::span<const Vec3> positions) {
-    Vec3 middle;
-    for (const Vec3& p : positions) middle += p / static_cast<double>(positions.size());
-    return middle;
-}
-
-// Outwards is where the enclosed volume is positive.
 SeenSkin skin_of(const Face& face, const Weld& weld, const std::vector<bool>& solved) {
     SeenSkin skin;
     for (std::uint32_t p = 0; p < weld.vertex.size(); ++p) skin.positions.push_back(position(face.mesh, weld, p));
-    skin.normals.resize(skin.positions.size());
+    skin.normals = outward_normals(face.mesh, weld, solved);
     const std::vector<bool> filling = fillings(face, weld, solved);
-    const Vec3 middle = middle_of(skin.positions);
-    double volume = 0;
     for (std::size_t f = 0; f < face_count(face.mesh); ++f) {
         const auto corners = mien::face(face.mesh, f);
         for (std::size_t i = 2; i < corners.size(); ++i) {
             const std::array t{weld.place[corners[0]], weld.place[corners[i - 1]], weld.place[corners[i]]};
             if (solved[t[0]] || filling[t[0]]) skin.triangles.push_back(t);
-            if (!solved[t[0]]) continue;
-            const Vec3 a = skin.positions[t[0]] - middle;
-            const Vec3 b = skin.positions[t[1]] - middle;
-            const Vec3 c = skin.positions[t[2]] - middle;
-            volume += dot(a, cross(b, c));
-            for (const std::uint32_t p : t) skin.normals[p] += cross(b - a, c - a);
         }
     }
-    if (volume < 0)
-        for (Vec3& n : skin.normals) n = -n;
     return skin;
 }
 
@@ -185,18 +166,18 @@ struct Piece {
     std::vector<std::uint32_t> places, rim;
 };
 
-std::vector<Piece> hidden_pieces(const EdgeGraph& graph, const std::vector<bool>& hidden) {
+std::vector<Piece> pieces_of(const EdgeGraph& graph, const std::vector<bool>& marked) {
     std::vector<Piece> list;
-    std::vector<bool> done(hidden.size(), false);
-    for (std::uint32_t first = 0; first < hidden.size(); ++first) {
-        if (!hidden[first] || done[first]) continue;
+    std::vector<bool> done(marked.size(), false);
+    for (std::uint32_t first = 0; first < marked.size(); ++first) {
+        if (!marked[first] || done[first]) continue;
         Piece piece{{first}, {}};
         done[first] = true;
         for (std::size_t i = 0; i < piece.places.size(); ++i)
             for (std::uint32_t e = graph.starts[piece.places[i]]; e < graph.starts[piece.places[i] + 1]; ++e) {
                 const std::uint32_t next = graph.neighbours[e];
-                if (!hidden[next]) piece.rim.push_back(next);
-                if (!hidden[next] || done[next]) continue;
+                if (!marked[next]) piece.rim.push_back(next);
+                if (!marked[next] || done[next]) continue;
                 done[next] = true;
                 piece.places.push_back(next);
             }
@@ -231,7 +212,50 @@ bool is_pocket(const Piece& piece, const Face& face, const std::vector<Vec3>& po
     });
 }
 
+// What is seen within a pocket, by a chink between lips, and cut off from every point is of the pocket.
+void take_in_specks(std::vector<bool>& pocket, const Face& face, const Weld& weld, const std::vector<bool>& solved,
+                    const EdgeGraph& graph) {
+    std::vector<bool> open = solved;
+    for (std::size_t p = 0; p < open.size(); ++p)
+        if (pocket[p]) open[p] = false;
+    std::vector<bool> held(open.size(), false);
+    for (const FeaturePoint& point : face.points) held[weld.place[point.vertex]] = true;
+    for (const Piece& piece : pieces_of(graph, open))
+        if (std::any_of(piece.rim.begin(), piece.rim.end(), [&](std::uint32_t p) { return pocket[p]; }) &&
+            std::none_of(piece.places.begin(), piece.places.end(), [&](std::uint32_t p) { return held[p]; }))
+            for (const std::uint32_t p : piece.places) pocket[p] = true;
+}
+
+Vec3 middle_of(const Mesh& mesh, const Weld& weld) {
+    Vec3 middle;
+    for (std::uint32_t p = 0; p < weld.vertex.size(); ++p)
+        middle += position(mesh, weld, p) / static_cast<double>(weld.vertex.size());
+    return middle;
+}
+
 }  // namespace
+
+// Outwards is where the enclosed volume is positive.
+std::vector<Vec3> outward_normals(const Mesh& mesh, const Weld& weld, const std::vector<bool>& solved) {
+    std::vector<Vec3> normals(weld.vertex.size());
+    const Vec3 middle = middle_of(mesh, weld);
+    double volume = 0;
+    for (std::size_t f = 0; f < face_count(mesh); ++f) {
+        const auto corners = face(mesh, f);
+        for (std::size_t i = 2; i < corners.size(); ++i) {
+            const std::array t{weld.place[corners[0]], weld.place[corners[i - 1]], weld.place[corners[i]]};
+            if (!solved[t[0]]) continue;
+            const Vec3 a = position(mesh, weld, t[0]) - middle;
+            const Vec3 b = position(mesh, weld, t[1]) - middle;
+            const Vec3 c = position(mesh, weld, t[2]) - middle;
+            volume += dot(a, cross(b, c));
+            for (const std::uint32_t p : t) normals[p] += cross(b - a, c - a);
+        }
+    }
+    if (volume < 0)
+        for (Vec3& n : normals) n = -n;
+    return normals;
+}
 
 std::vector<bool> closed_pockets(const Face& face, const Weld& weld, const std::vector<bool>& solved) {
     std::vector<bool> pocket(solved.size(), false);
@@ -242,7 +266,7 @@ std::vector<bool> closed_pockets(const Face& face, const Weld& weld, const std::
     const EdgeGraph graph = edge_graph(face.mesh, weld);
     const double scale = face_scale(face);
     const std::vector<bool> open = open_borders(face.mesh, weld);
-    for (const Piece& piece : hidden_pieces(graph, hidden_places(skin, solved)))
+    for (const Piece& piece : pieces_of(graph, hidden_places(skin, solved)))
         if (is_pocket(piece, face, skin.positions, open, scale))
             for (const std::uint32_t p : piece.places) pocket[p] = true;
     for (const FeaturePoint& point : face.points) {
@@ -250,6 +274,7 @@ std::vector<bool> closed_pockets(const Face& face, const Weld& weld, const std::
         for (std::size_t p = 0; p < d.size(); ++p)
             if (std::isfinite(d[p])) pocket[p] = false;
     }
+    take_in_specks(pocket, face, weld, solved, graph);
     return pocket;
 }
 
@@ -262,16 +287,6 @@ Mesh without_places(const Mesh& mesh, const Weld& weld, const std::vector<bool>&
             add_face(rest, corners);
     }
     return rest;
-}
-
-Eigen::MatrixXd fill_pockets(const Mesh& mesh, const Weld& weld, const std::vector<std::uint32_t>& pocket,
-                             const Eigen::MatrixXd& weights) {
-    const Eigen::SparseMatrix<double> l = laplacian(mesh, weld, Cotangents::positive).stiffness;
-    const Eigen::SparseMatrix<double> pick = picks(l.rows(), pocket);
-    Eigen::MatrixXd around = weights;
-    for (const std::uint32_t p : pocket) around.row(p).setZero();
-    const Eigen::MatrixXd right = -(pick.transpose() * (l * around));
-    return solve_checked(pick.transpose() * l * pick, right, "pockets of the skin");
 }
 
 }  // namespace mien

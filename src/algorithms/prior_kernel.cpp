@@ -20,7 +20,6 @@
 #include "algorithms/face_check.hpp"
 #include "algorithms/island.hpp"
 #include "algorithms/laplacian.hpp"
-#include "algorithms/pockets.hpp"
 #include "algorithms/sparse_solve.hpp"
 
 #include "mien/algorithms/attach.hpp"
@@ -69,7 +68,7 @@ Eigen::VectorXd mobility_of(const Ground& ground, std::span<const Field> all, co
 
 // The solved places that a mover reaches along the surface.
 std::vector<std::uint32_t> near_places(const Ground& ground, Places movers) {
-    const EdgeGraph graph = edge_graph(ground.open, ground.joined);
+    const EdgeGraph graph = edge_graph(ground.skin.solved, ground.joined);
     const double radius = far_radius * ground.scale;
     std::vector<bool> is_near(ground.solved.size(), false);
     for (const std::uint32_t place : movers) {
@@ -86,7 +85,7 @@ std::vector<std::uint32_t> near_places(const Ground& ground, Places movers) {
 Eigen::MatrixXd smooth_part(const Ground& ground, const Movers& movers, const Eigen::VectorXd& q,
                             const PriorSetting& setting) {
     const double scale = ground.scale;
-    const Laplacian surface = laplacian(ground.open, ground.joined);
+    const Laplacian surface = laplacian(ground.skin.solved, ground.joined);
     Sparse energy = surface.stiffness * Eigen::VectorXd(surface.areas.cwiseInverse()).asDiagonal() * surface.stiffness;
     energy += setting.a / (scale * scale) * surface.stiffness;
     energy += drift / std::pow(scale, 4) * Sparse(surface.areas.asDiagonal());
@@ -94,8 +93,8 @@ Eigen::MatrixXd smooth_part(const Ground& ground, const Movers& movers, const Ei
     const Sparse near_to_movers = to_near.transpose() * picks(energy.rows(), movers.places);
     const Sparse within = to_near.transpose() * energy * to_near;
     Eigen::MatrixXd G = to_near * solve_checked(within, Eigen::MatrixXd(near_to_movers), "rig prior");
-    if (!ground.pocket.empty())
-        G(ground.pocket, Eigen::all) = Eigen::MatrixXd(fill_pockets(ground.face.mesh, ground.joined, ground.pocket, G));
+    if (const Pockets& pockets = ground.skin.pockets; !pockets.places.empty())
+        G(pockets.places, Eigen::all) = Eigen::MatrixXd(fill_pockets(ground.face.mesh, ground.joined, pockets, G));
     G = (q.asDiagonal() * G).eval();
     double mean = 0;
     for (Eigen::Index f = 0; f < G.cols(); ++f) {
@@ -131,16 +130,13 @@ void add_copy(Eigen::MatrixXd& S, const Ground& ground, const Movers& movers, st
 }  // namespace
 
 Ground ground_of(const Face& face) {
-    Ground ground{face, weld(face.mesh), {}, {}, face_scale(face), {}, {}};
+    Ground ground{face, weld(face.mesh), {}, {}, face_scale(face), {}};
     check_face(face, ground.joined);
     ground.solved = solved_places(face, ground.joined);
     for (const FeaturePoint& point : face.points)
         if (ground.solved[ground.joined.place[point.vertex]])
             ground.points.push_back(ground.joined.place[point.vertex]);
-    const std::vector<bool> is_pocket = closed_pockets(face, ground.joined, ground.solved);
-    for (std::uint32_t p = 0; p < is_pocket.size(); ++p)
-        if (is_pocket[p]) ground.pocket.push_back(p);
-    ground.open = ground.pocket.empty() ? face.mesh : without_places(face.mesh, ground.joined, is_pocket);
+    ground.skin = sheet_skin(face, ground.joined, ground.solved, ground.scale);
     return ground;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algorithms/movers.hpp"
+#include "algorithms/sheet.hpp"
 
 #include "mien/algorithms/weld.hpp"
 #include "mien/face.hpp"
@@ -46,8 +47,7 @@ struct Ground {
     std::vector<bool> solved;           ///< per place
     std::vector<std::uint32_t> points;  ///< places of the feature points on the skin
     double scale = 1;                   ///< eye distance
-    std::vector<std::uint32_t> pocket;  ///< places of closed pockets, which the sheet leaves out
-    Mesh open;                          ///< the head without them
+    SheetSkin skin;
 };
 
 /// Throws Error unless the face has what every rigger asks for.

@@ -33,13 +33,13 @@ Rig rig_biharmonic(const Face& face, const BiharmonicOptions& options) {
     check_options(options);
     const double scale = face_scale(face);
     std::optional<SheetSkin> skin;  // the same for all axes
-    return rig_by_axes("biharmonic", face,
-                       [&](const Weld& weld, const std::vector<bool>& solved, const Movers& movers) {
-                           if (!skin) skin = sheet_skin(face, weld, solved, options.cut_pockets);
-                           const Sheet sheet = solve_sheet(face.mesh, *skin, weld, movers, scale, options);
-                           return refit_rows(weld.vertex.size(), movers, sheet.free, sheet.weights,
-                                             covariance_of(sheet.energy), options.influences);
-                       });
+    return rig_by_axes(
+        "biharmonic", face, [&](const Weld& weld, const std::vector<bool>& solved, const Movers& movers) {
+            if (!skin) skin = options.cut_pockets ? sheet_skin(face, weld, solved, scale) : SheetSkin{face.mesh, {}};
+            const Sheet sheet = solve_sheet(face.mesh, *skin, weld, movers, scale, options);
+            return refit_rows(weld.vertex.size(), movers, sheet.free, sheet.weights, covariance_of(sheet.energy),
+                              options.influences);
+        });
 }
 
 }  // namespace mien

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the mien authors
 
 // The sheet of docs/methods.md: energy Q = L M^-1 L + a L with feature points held at one or zero and far places at
-// zero. Closed pockets are left out and filled harmonically from their rims. Q's Schur complement on the points is the
+// zero. Closed pockets are left out and follow the skin round them. Q's Schur complement on the points is the
 // energy of the sheet as a function of its points.
 
 #include "algorithms/sheet.hpp"
@@ -56,28 +56,24 @@ Sheet solve(const Sparse& q, const std::vector<Role>& role, const Movers& movers
 }
 
 // Adds the rows of the pockets to those of the sheet.
-void carry_pockets(Sheet& sheet, const Mesh& mesh, const Weld& weld, const Movers& movers,
-                   const std::vector<std::uint32_t>& pocket) {
-    if (pocket.empty()) return;
+void carry_pockets(Sheet& sheet, const Mesh& mesh, const Weld& weld, const Movers& movers, const Pockets& pockets) {
+    if (pockets.places.empty()) return;
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(std::ssize(weld.vertex), std::ssize(movers.places));
     all(sheet.free, Eigen::all) = sheet.weights;
     for (Eigen::Index m = 0; m < all.cols(); ++m) all(movers.places[static_cast<std::size_t>(m)], m) = 1;
-    const Eigen::MatrixXd carried = fill_pockets(mesh, weld, pocket, all);
+    const Eigen::MatrixXd carried = fill_pockets(mesh, weld, pockets, all);
     const Eigen::Index free = sheet.weights.rows();
     sheet.weights.conservativeResize(free + carried.rows(), Eigen::NoChange);
     sheet.weights.bottomRows(carried.rows()) = carried;
-    sheet.free.insert(sheet.free.end(), pocket.begin(), pocket.end());
+    sheet.free.insert(sheet.free.end(), pockets.places.begin(), pockets.places.end());
 }
 
 }  // namespace
 
-SheetSkin sheet_skin(const Face& face, const Weld& weld, const std::vector<bool>& solved, bool cut_pockets) {
-    if (!cut_pockets) return {face.mesh, {}};
+SheetSkin sheet_skin(const Face& face, const Weld& weld, const std::vector<bool>& solved, double scale) {
     const std::vector<bool> is_pocket = closed_pockets(face, weld, solved);
-    SheetSkin skin;
-    for (std::uint32_t p = 0; p < is_pocket.size(); ++p)
-        if (is_pocket[p]) skin.pocket.push_back(p);
-    skin.solved = skin.pocket.empty() ? face.mesh : without_places(face.mesh, weld, is_pocket);
+    SheetSkin skin{{}, line_pockets(face, weld, solved, is_pocket, scale)};
+    skin.solved = skin.pockets.places.empty() ? face.mesh : without_places(face.mesh, weld, is_pocket);
     return skin;
 }
 
@@ -86,7 +82,7 @@ Sheet solve_sheet(const Mesh& mesh, const SheetSkin& skin, const Weld& weld, con
     const std::vector<Role> role = roles(skin.solved, weld, movers, options.far_radius * scale);
     const Sparse q = stiffness(laplacian(skin.solved, weld), options.tension / (scale * scale));
     Sheet sheet = solve(q, role, movers);
-    carry_pockets(sheet, mesh, weld, movers, skin.pocket);
+    carry_pockets(sheet, mesh, weld, movers, skin.pockets);
     return sheet;
 }
 

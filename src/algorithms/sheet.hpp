@@ -7,18 +7,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithms/fill_pockets.hpp"
 #include "algorithms/movers.hpp"
 
 #include "mien/algorithms/rig_biharmonic.hpp"
 
 namespace mien {
 
-/// The skin that a sheet is solved on, and the closed pockets that follow its rim.
+/// The skin that a sheet is solved on, and the closed pockets that follow it.
 struct SheetSkin {
     Mesh solved;
-    std::vector<std::uint32_t> pocket;  ///< places, ascending
+    Pockets pockets;
 };
-SheetSkin sheet_skin(const Face& face, const Weld& weld, const std::vector<bool>& solved, bool cut_pockets);
+SheetSkin sheet_skin(const Face& face, const Weld& weld, const std::vector<bool>& solved, double scale);
 
 /// How a sheet follows its points. All other places keep still.
 struct Sheet {

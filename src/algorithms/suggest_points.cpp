@@ -53,9 +53,9 @@ Ground ground_of(const Face& face) {
     Ground ground{face, weld(face.mesh), {}, {}, {}, face_scale(face)};
     check_face(face, ground.weld);
     ground.solved = solved_places(face, ground.weld);
-    ground.skin = sheet_skin(face, ground.weld, ground.solved, true);
+    ground.skin = sheet_skin(face, ground.weld, ground.solved, ground.scale);
     ground.open = ground.solved;
-    for (const std::uint32_t p : ground.skin.pocket) ground.open[p] = false;
+    for (const std::uint32_t p : ground.skin.pockets.places) ground.open[p] = false;
     return ground;
 }
 
@@ -157,7 +157,7 @@ struct Model {
 Eigen::MatrixXd seen_by_all(const Ground& ground, const Sheet& sheet, const Movers& movers) {
     Eigen::VectorXd vertices = Eigen::VectorXd::Zero(std::ssize(ground.weld.vertex));
     for (const std::uint32_t p : ground.weld.place) vertices[p] = 1;
-    const auto open = static_cast<Eigen::Index>(sheet.free.size() - ground.skin.pocket.size());
+    const auto open = static_cast<Eigen::Index>(sheet.free.size() - ground.skin.pockets.places.size());
     const Eigen::VectorXd at_free = vertices(sheet.free).head(open);
     const auto weights = sheet.weights.topRows(open);
     Eigen::MatrixXd onto = weights.transpose() * at_free.asDiagonal() * weights;

@@ -3,9 +3,11 @@
 
 #include "algorithms/pockets.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "algorithms/fill_pockets.hpp"
 #include "shapes.hpp"
 
 #include "mien/algorithms/rig_biharmonic.hpp"
@@ -107,19 +109,54 @@ TEST(Pockets, WhatFillsABagHidesItsWallsFromAnOpenMouth) {
     EXPECT_GT(count(closed_pockets(face, joined, solved)), 2 * sectors);
 }
 
+std::vector<bool> all_skin(const Weld& joined) {
+    return std::vector<bool>(joined.vertex.size(), true);
+}
+
+Pockets lined(const Face& face, const Weld& joined) {
+    return line_pockets(face, joined, all_skin(joined), pockets(face), 1);
+}
+
 TEST(Pockets, AreFilledBetweenTheMotionsOfTheirRim) {
     const Face face = purse(true);
     const Weld joined = weld(face.mesh);
-    std::vector<std::uint32_t> pocket;
+    Pockets bag = lined(face, joined);
+    bag.outside = bag.places;  // there is no flesh
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(std::ssize(joined.vertex), 1);
-    for (std::uint32_t p = 0; p < joined.vertex.size(); ++p) {
-        if (p >= (lip_ring + 1) * sectors) pocket.push_back(p);
-        weights(p, 0) = face.mesh.positions[p].y > 0 ? 0.75 : 0.25;
-    }
-    const Eigen::MatrixXd filled = fill_pockets(face.mesh, joined, pocket, weights);
+    for (std::uint32_t p = 0; p < joined.vertex.size(); ++p) weights(p, 0) = face.mesh.positions[p].y > 0 ? 0.75 : 0.25;
+    const Eigen::MatrixXd filled = fill_pockets(face.mesh, joined, bag, weights);
     EXPECT_GT(filled.minCoeff(), 0.25);
     EXPECT_LT(filled.maxCoeff(), 0.75);
     EXPECT_NEAR(filled.mean(), 0.5, 0.02);
+}
+
+TEST(Pockets, HaveTheSkinOutsideBeyondTheFlesh) {
+    const Face face = purse(true);
+    const Weld joined = weld(face.mesh);
+    const Pockets bag = lined(face, joined);
+    for (std::size_t i = 0; i < bag.places.size(); ++i) {
+        const Vec3 wall = to_double(face.mesh.positions[bag.places[i]]);
+        const Vec3 skin = to_double(face.mesh.positions[bag.outside[i]]);
+        EXPECT_LE(bag.outside[i], lip_ring * sectors + sectors - 1);
+        EXPECT_GT(skin.x * wall.x + skin.y * wall.y, 0) << "not across the bag";
+        EXPECT_GT(length(skin), length(wall));
+        EXPECT_NEAR(bag.shares[i], std::exp(-std::pow(distance(wall, skin) / 0.4, 2)), 1e-12);
+    }
+}
+
+// Deep in a bag the walls go with the skin on the other side of the flesh, the less the thicker that is, whatever the
+// rim does.
+TEST(Pockets, FollowTheSkinOutsideDeepDown) {
+    const Face face = purse(true);
+    const Weld joined = weld(face.mesh);
+    Pockets bag = lined(face, joined);
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(std::ssize(joined.vertex), 1);
+    weights.topRows(lip_ring * sectors).setConstant(0.5);  // the rim alone keeps still
+    bag.softness = 0.02;
+    bag.shares.assign(bag.places.size(), 0.8);
+    EXPECT_NEAR(fill_pockets(face.mesh, joined, bag, weights).bottomRows(sectors).minCoeff(), 0.4, 0.01);
+    bag.softness = 20;
+    EXPECT_LT(fill_pockets(face.mesh, joined, bag, weights).maxCoeff(), 0.01);
 }
 
 // What the rest of a face does must not depend on what is hidden behind its lips.

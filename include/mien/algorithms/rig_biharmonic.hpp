@@ -17,7 +17,8 @@ struct BiharmonicOptions {
     double far_radius = 1.6;
     /// Points kept per vertex, refitted rather than cut; 0 keeps all. 4 to 16.
     std::uint32_t influences = 8;
-    /// Eye sockets and mouth bags that are one surface with the face are left out of the solve and follow their rims.
+    /// Eye sockets and mouth bags that are one surface with the face are left out of the solve; their walls follow
+    /// their rims and the skin outside.
     bool cut_pockets = true;
 };
 
