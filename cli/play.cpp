@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,6 +29,7 @@ struct Play {
     std::filesystem::path rig;
     std::filesystem::path faps;
     std::filesystem::path fit;  // empty: none
+    bool whole_units = false;
     OutputFlags output;
     FdpFlags definition;
 };
@@ -105,11 +107,15 @@ void play(Call& call, const Play& flags) {
     const std::vector<std::string> points = told_points(stream, fapu);
     if (points.empty())
         throw Error(flags.faps.string() + ": expected parameters that move a point of this rig, found none");
-    const Take take = told(to_take(stream, fapu), points);
+    const Fapu shown = flags.whole_units ? fapu : restrained(fapu);
+    const Take take = told(to_take(stream, shown), points);
     call.report["rig"] = {{"file", flags.rig.filename().string()}, {"points", file.rig.points.size()}};
     call.report["units"] = {
         {"irisd", fapu.irisd}, {"es", fapu.es}, {"ens", fapu.ens}, {"mns", fapu.mns}, {"mw", fapu.mw}};
     if (!fapu.estimated.empty()) call.report["units_estimated"] = fapu.estimated;
+    if (shown.mns < fapu.mns)
+        call.report["small_mouth"] =
+            fmt::format("moves by {:.2f} of MNS; --whole-units moves it by all of it", shown.mns / fapu.mns);
     call.report["points_carried_by_the_skin"] = missing_points(face, take);
     if (!take.head.empty() && !flags.output.head_motion)
         call.report["head_turns"] = "in the stream; --head-motion plays them";
@@ -130,6 +136,8 @@ void add_play(CLI::App& app, Call& call) {
     verb->add_option("faps", flags->faps, "the parameters: .fap .fba")->required();
     verb->add_option("--fit", flags->fit,
                      "how parameters that are not sent follow from those that are: an interpolation table (.json)");
+    verb->add_flag("--whole-units", flags->whole_units,
+                   "move a small mouth by the standard's units, even where they tear it");
     add_output_flags(*verb, flags->output);
     add_fdp_flags(*verb, flags->definition);
 }

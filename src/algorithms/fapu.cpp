@@ -15,6 +15,7 @@
 
 #include "algorithms/eyeballs.hpp"
 #include "algorithms/island.hpp"
+#include "algorithms/small_mouth.hpp"
 
 #include "mien/algorithms/weld.hpp"
 #include "mien/error.hpp"
@@ -24,7 +25,7 @@ namespace mien {
 namespace {
 
 // Shares of the eye separation.
-constexpr double iris_share = 0.17, eyes_to_nose_share = 0.79, nose_to_mouth_share = 0.33, mouth_share = 0.82;
+constexpr double iris_share = 0.17, eyes_to_nose_share = 0.79, nose_to_mouth_share = 0.33, mouth_width_share = 0.82;
 constexpr double eyeball_share = 0.19;  // radius: 12 mm of 63 mm
 constexpr double least_share = 0.001;   // less is no distance but noise
 
@@ -175,8 +176,8 @@ private:
             note("MW", "8.3 or 8.4 is missing", "2.4 and 2.5, widened by an eighth", {FapUnit::mw});
             return 1.125 * inner;
         }
-        note("MW", "the corners of the mouth are missing", fmt::format("{} of ES", mouth_share), {FapUnit::mw});
-        return mouth_share * fapu_.es;
+        note("MW", "the corners of the mouth are missing", fmt::format("{} of ES", mouth_width_share), {FapUnit::mw});
+        return mouth_width_share * fapu_.es;
     }
 
     // Without a point for it the head turns where the skull sits on the spine: between and below the ears.
@@ -212,6 +213,11 @@ Fapu measure_fapu(const Face& face) {
             distance(centre, fapu.left_eye) < distance(centre, fapu.right_eye) ? fapu.left_eye : fapu.right_eye;
         if (centre.z < estimate.z + eyeball_share * fapu.es) estimate = centre;  // behind the pupil
     }
+    return fapu;
+}
+
+Fapu restrained(Fapu fapu) {
+    fapu.mns *= mouth_share(fapu.mw / mouth_width_share, fapu.mns / nose_to_mouth_share);
     return fapu;
 }
 

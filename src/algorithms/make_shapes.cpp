@@ -4,7 +4,7 @@
 // From the table to the head, shape by shape: points by one linear map each (docs/methods.md), skin by the rig, then
 // what has to be true of a shape whatever points say. Where this departs from the table:
 //
-// - jawOpen leaves the upper lip alone, and a small mouth moves in proportion (shape_table.hpp).
+// - jawOpen leaves the upper lip alone (shape_table.hpp).
 // - mouthClose is not retargeted: contact would stop the lips of that motion alone, which cross. It is the difference
 //   of two frames, jawOpen with mouthClose, in contact, less the jawOpen that is written.
 // - Shapes of a symmetric head are averaged with their mirror images: then they are mirrors to the last bit.
@@ -47,8 +47,7 @@ struct Maker {
     EdgeGraph graph;
     double eyes = 1;
     Quaternion turn;
-    Vec3 origin;            // between the eyes
-    double lower_face = 1;  // share of the motion that the table has
+    Vec3 origin;  // between the eyes
     Retarget with_contact, linear;
     std::vector<std::size_t> in_map;  // of each rig point: its number in the maps, or no_point
     Face driven;                      // with the points that the table knows; what the closer's margins count by
@@ -115,12 +114,10 @@ std::optional<Motions> from_other_side(const Maker& maker, std::string_view shap
 }
 
 Motions plain_motions(const Maker& maker, std::string_view shape) {
-    if (shape == "jawOpen")
-        return onto_face(maker, maker.linear, jaw_open_motions(maker.with_contact.points, maker.lower_face));
-    if (shape != "mouthClose")
-        return onto_face(maker, maker.linear, table_motions(shape, maker.with_contact.points, maker.lower_face));
-    Motions together = table_motions("jawOpen", maker.with_contact.points, maker.lower_face);
-    const Motions close = table_motions("mouthClose", maker.with_contact.points, maker.lower_face);
+    if (shape == "jawOpen") return onto_face(maker, maker.linear, jaw_open_motions(maker.with_contact.points));
+    if (shape != "mouthClose") return onto_face(maker, maker.linear, table_motions(shape, maker.with_contact.points));
+    Motions together = table_motions("jawOpen", maker.with_contact.points);
+    const Motions close = table_motions("mouthClose", maker.with_contact.points);
     for (std::size_t i = 0; i < together.size(); ++i) together[i] += close[i];
     Motions result = onto_face(maker, maker.with_contact, together);
     const auto artist = maker.examples.find("jawOpen");
@@ -365,13 +362,11 @@ void check(const Face& face, const Rig& rig, const ShapesOptions& options) {
 }
 
 Maker maker_of(const Face& face, const Rig& rig, const ShapesOptions& options) {
-    Maker maker{
-        face, rig, options, weld(face.mesh), {}, eye_distance(face.points), {}, {}, 1, {}, {}, {}, {}, {}, {}, {},
-        {},   {},  {}};
+    Maker maker{face, rig, options, weld(face.mesh), {}, eye_distance(face.points), {}, {}, {}, {}, {}, {}, {}, {}, {},
+                {},   {},  {}};
     maker.graph = edge_graph(face.mesh, maker.weld);
     maker.turn = face_turn(face.points).value_or(Quaternion{});
     maker.origin = middle_of_eyes(maker);
-    maker.lower_face = lower_face_share(face.points);
     RetargetOptions retargeting;
     retargeting.method = options.method;
     maker.with_contact = fit_retarget(neutral_take(face.points), face, retargeting);

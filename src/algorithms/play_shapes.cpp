@@ -17,18 +17,17 @@ ShapePlayer fit_shape_player(const Face& face, const ShapesOptions& options) {
     retargeting.method = options.method;
     ShapePlayer player{fit_retarget(neutral_take(face.points), face, retargeting), {}, {}};
     player.points = player.map.points;
-    const double lower_face = lower_face_share(face.points);
     for (const NamedShape& shape : named_shapes())
         if (shape.set == ShapeSet::arkit)
-            player.motions.push_back(shape.name == "jawOpen" ? jaw_open_motions(player.points, lower_face)
-                                                             : table_motions(shape.name, player.points, lower_face));
+            player.motions.push_back(shape.name == "jawOpen" ? jaw_open_motions(player.points)
+                                                             : table_motions(shape.name, player.points));
     // The lips that mouthClose brings together are those of the table's own jawOpen.
     const auto index = [](std::string_view name) {
         const auto all = named_shapes();
         return static_cast<std::size_t>(
             std::find_if(all.begin(), all.end(), [&](const NamedShape& s) { return s.name == name; }) - all.begin());
     };
-    const std::vector<Vec3> open = table_motions("jawOpen", player.points, lower_face);
+    const std::vector<Vec3> open = table_motions("jawOpen", player.points);
     std::vector<Vec3>& close = player.motions[index("mouthClose")];
     const std::vector<Vec3>& made = player.motions[index("jawOpen")];
     for (std::size_t i = 0; i < close.size(); ++i) close[i] += open[i] - made[i];

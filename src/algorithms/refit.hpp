@@ -18,9 +18,10 @@ struct KeptWeight {
     double weight = 0;
 };
 
-/// The row cut to its `keep` largest weights, refitted so that the motion changes least when the points move with
-/// covariance `covariance` (symmetric, positive definite, columns x columns): solves C_KK w' = (C w)_K for the kept
-/// columns K. Columns ascend. Keeping all or more gives the row itself, without zeros.
+/// The row cut to `keep` weights, refitted so that the motion changes least when the points move with covariance
+/// `covariance` (symmetric, positive definite, columns x columns): solves C_KK w' = (C w)_K for the kept columns K.
+/// From the three times as many largest weights those are left out one by one that are missed least. Columns ascend.
+/// Keeping all or more gives the row itself, without zeros.
 std::vector<KeptWeight> refit_row(const Eigen::VectorXd& row, const Eigen::MatrixXd& covariance, std::uint32_t keep);
 
 /// The covariance under which motions of little energy are likely, for an energy of the movers' positions (symmetric,

@@ -18,6 +18,7 @@
 #include "algorithms/retarget_rbf.hpp"
 #include "algorithms/rotation.hpp"
 #include "algorithms/similarity.hpp"
+#include "algorithms/small_mouth.hpp"
 
 #include "mien/error.hpp"
 
@@ -71,6 +72,7 @@ Retarget fit_retarget(const Take& take, const Face& face, const RetargetOptions&
     }
     const FaceFrames frames = face_frames(map, eye_distance(face.points));
     fit_local_affine(map, frames);
+    fit_small_mouth(map, frames);
     if (options.method == RetargetMethod::fapu) fit_fapu(map, frames, take, face, options.neutral);
     if (options.contact) fit_contact(map, frames, face.points, options.sealed);
     return map;

@@ -14,6 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "algorithms/small_mouth.hpp"
+
 #include "mien/algorithms/fapu.hpp"
 #include "mien/error.hpp"
 #include "mien/fap.hpp"
@@ -37,6 +39,15 @@ std::optional<double> known_length(const std::optional<Fapu>& fapu, FapUnit unit
     if (!fapu || std::find(fapu->uncertain.begin(), fapu->uncertain.end(), unit) != fapu->uncertain.end())
         return std::nullopt;
     return unit_length(*fapu, unit);
+}
+
+// Of the target's unit to the source's. A mouth that is narrow beside its distance from the nose moves in proportion to
+// its width.
+std::optional<double> ratio(const std::optional<Fapu>& source, const std::optional<Fapu>& target, FapUnit unit) {
+    const auto s = known_length(source, unit), t = known_length(target, unit);
+    if (!s || !t) return std::nullopt;
+    const auto width = unit == FapUnit::mns ? ratio(source, target, FapUnit::mw) : std::nullopt;
+    return width ? *t / *s * mouth_share(*width, *t / *s) : *t / *s;
 }
 
 constexpr std::array<std::string_view, 4> lids{"3.1", "3.2", "3.3", "3.4"};
@@ -67,8 +78,7 @@ void fit_fapu(Retarget& map, const FaceFrames& frames, const Take& take, const F
         std::array<Vec3, 3> columns{};
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 from = rotate(frames.source.turn, axes[k]), to = rotate(frames.target.turn, axes[k]);
-            const auto s = known_length(source, units[k]), t = known_length(target, units[k]);
-            const double scale = s && t ? *t / *s : dot(to, applied(map.local[i], from));
+            const double scale = ratio(source, target, units[k]).value_or(dot(to, applied(map.local[i], from)));
             columns[0] += scale * from.x * to;
             columns[1] += scale * from.y * to;
             columns[2] += scale * from.z * to;

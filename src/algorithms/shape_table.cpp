@@ -15,7 +15,6 @@ namespace mien {
 
 namespace {
 
-constexpr double small_mouth = 0.8;  // of the table's width, by the eye distance
 constexpr double upper_lip_of_jaw_open = 0.3;
 
 // Sculptors agree on where a shape goes more than on how far. The table's stands at one end for these: beside an
@@ -64,27 +63,15 @@ Take neutral_take(std::span<const FeaturePoint> points) {
     return take;
 }
 
-double lower_face_share(std::span<const FeaturePoint> points) {
-    const auto a = find_point(points, "8.3") ? find_point(points, "8.3") : find_point(points, "2.4");
-    const auto b = find_point(points, "8.4") ? find_point(points, "8.4") : find_point(points, "2.5");
-    const double eyes = eye_distance(points);
-    if (!a || !b || !(eyes > 0)) return 1;
-    const double usual = distance(*arkit_neutral(points[*a].id), *arkit_neutral(points[*b].id));
-    return std::min(1.0, distance(points[*a].position, points[*b].position) / (eyes * usual * small_mouth));
-}
-
-std::vector<Vec3> table_motions(std::string_view shape, std::span<const std::string> ids, double lower_face) {
+std::vector<Vec3> table_motions(std::string_view shape, std::span<const std::string> ids) {
     std::vector<Vec3> motions;
     const double strength = strength_of(shape);
-    for (const std::string& id : ids) {
-        const bool upper_face = id.starts_with("3.") || id.starts_with("4.") || id.starts_with("11.");
-        motions.push_back((upper_face ? strength : lower_face * strength) * arkit_motion(shape, id));
-    }
+    for (const std::string& id : ids) motions.push_back(strength * arkit_motion(shape, id));
     return motions;
 }
 
-std::vector<Vec3> jaw_open_motions(std::span<const std::string> ids, double lower_face) {
-    std::vector<Vec3> motions = table_motions("jawOpen", ids, lower_face);
+std::vector<Vec3> jaw_open_motions(std::span<const std::string> ids) {
+    std::vector<Vec3> motions = table_motions("jawOpen", ids);
     for (std::size_t i = 0; i < motions.size(); ++i)
         if (is_above_the_mouth(ids[i])) motions[i] = upper_lip_of_jaw_open * motions[i];
     return motions;

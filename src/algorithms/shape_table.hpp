@@ -21,16 +21,11 @@ bool is_driven(std::string_view id);
 /// three.
 Take neutral_take(std::span<const FeaturePoint> points);
 
-/// How much of the lower face's motion a small mouth can take: a muzzle would be torn by the jaw of a face whose mouth
-/// is three times as wide. In proportion to its width, by the eye distance, below 0.8 of the table's; at most 1.
-double lower_face_share(std::span<const FeaturePoint> points);
-
-/// The motions of the points `ids` in an ARKit shape, at a strength that most sculptors would give it, those of the
-/// lower face times `lower_face`.
-std::vector<Vec3> table_motions(std::string_view shape, std::span<const std::string> ids, double lower_face);
+/// The motions of the points `ids` in an ARKit shape, at a strength that most sculptors would give it.
+std::vector<Vec3> table_motions(std::string_view shape, std::span<const std::string> ids);
 
 /// The same for jawOpen as shapes are made of it: the table's sculptor let upper lip and nose sink by 6 % of what the
 /// lower lip does; a jaw does not. They get 0.3 of that.
-std::vector<Vec3> jaw_open_motions(std::span<const std::string> ids, double lower_face);
+std::vector<Vec3> jaw_open_motions(std::span<const std::string> ids);
 
 }  // namespace mien

@@ -171,5 +171,15 @@ TEST(Fapu, TheNeutralPointsOfATakeAreTheMeanOfItsNeutralRows) {
     EXPECT_EQ(points[1].id, "8.4");
 }
 
+TEST(Restrained, MnsFollowsTheWidthWhereAMouthIsNarrowBesideItsDistanceFromTheNose) {
+    Fapu fapu;
+    fapu.es = 1, fapu.mns = 0.33, fapu.mw = 0.82;
+    EXPECT_EQ(restrained(fapu).mns, 0.33);
+    fapu.mw = 0.41;
+    EXPECT_DOUBLE_EQ(restrained(fapu).mns, 0.33 * 0.5 / 0.8);
+    EXPECT_EQ(restrained(fapu).mw, 0.41);
+    EXPECT_DOUBLE_EQ(restrained(restrained(fapu)).mns, restrained(fapu).mns);
+}
+
 }  // namespace
 }  // namespace mien

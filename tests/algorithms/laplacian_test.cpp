@@ -90,6 +90,31 @@ TEST(Refit, APointThatMovesWithOneLeftOutTakesItsShare) {
     EXPECT_NEAR(kept[1].weight, 0.4, 1e-5);
 }
 
+TEST(Refit, OfTwoPointsThatMoveTogetherOneIsEnough) {
+    Eigen::Matrix3d together = Eigen::Matrix3d::Identity();
+    together(0, 1) = together(1, 0) = 0.99;
+    const auto kept = refit_row(Eigen::Vector3d(0.5, 0.45, 0.3), together, 2);
+    ASSERT_EQ(kept.size(), 2U);
+    EXPECT_EQ(kept[0].column, 0U);
+    EXPECT_NEAR(kept[0].weight, 0.5 + 0.99 * 0.45, 1e-12);
+    EXPECT_EQ(kept[1].column, 2U);
+    EXPECT_NEAR(kept[1].weight, 0.3, 1e-12);
+}
+
+TEST(Refit, LeavingOutOneByOneIsRefittingWhatIsLeft) {
+    Eigen::MatrixXd half(12, 12);
+    for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < 12; ++j) half(i, j) = std::sin(1.0 + 3.7 * i + 1.9 * j * j) + (i == j ? 2 : 0);
+    const Eigen::MatrixXd covariance = half * half.transpose();
+    const Eigen::VectorXd row = half.col(3) / 3;
+    const auto kept = refit_row(row, covariance, 4);
+    ASSERT_EQ(kept.size(), 4U);
+    Eigen::VectorXd off = -row;
+    for (const KeptWeight& k : kept) off[k.column] += k.weight;
+    const Eigen::VectorXd left = covariance * off;
+    for (const KeptWeight& k : kept) EXPECT_NEAR(left[k.column], 0, 1e-9 * covariance.norm());
+}
+
 TEST(Refit, OfTwoEqualWeightsNeitherIsPreferred) {
     const auto kept = refit_row(Eigen::Vector3d(0.5, 0.25, 0.25), Eigen::Matrix3d::Identity(), 2);
     ASSERT_EQ(kept.size(), 1U);

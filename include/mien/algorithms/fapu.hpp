@@ -27,6 +27,11 @@ Fapu measure_fapu(std::span<const FeaturePoint> neutral);
 /// The same, with the eyeballs of the mesh, where it has some, as what the eyes turn about.
 Fapu measure_fapu(const Face& face);
 
+/// The units that a small mouth can take: MNS in proportion to MW where that is less than 0.8 of what it usually is
+/// beside it. A muzzle whose mouth is far from the nose and narrow is torn by lips that move in MNS. Not the standard's
+/// units: for showing, not for measuring.
+Fapu restrained(Fapu fapu);
+
 /// The points of one row of a take, for measuring a performer; lost ones are left out. Throws Error if there is no such
 /// row.
 std::vector<FeaturePoint> points_of_row(const Take& take, std::size_t row);

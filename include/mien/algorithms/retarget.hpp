@@ -42,7 +42,8 @@ struct RetargetOptions {
 /// point (docs/methods.md); `fapu` scales each axis of the face by the ratio of the unit that MPEG-4 gives the point
 /// there, and by the linear map where either face lacks the unit's points. Both keep contact: pairs of lids and lips
 /// that close on the source close on the target, by the same share, and never cross; a lower lid that the source lacks
-/// is taken to be still. Paper of the network: Dutreve et al., section 2, eq. 1-3 (docs/papers/dutreve.md).
+/// is taken to be still. A mouth narrower than 0.8 of the source's, by the eye distance, takes the lower face's motion
+/// in proportion to its width. Paper of the network: Dutreve et al., section 2, eq. 1-3 (docs/papers/dutreve.md).
 ///
 /// In every method a face maps to itself (with contact: where its lids and lips do not cross), the neutral maps to the
 /// neutral, and the result does not depend on where either side's origin lies or how large it is. Flat and
