@@ -44,7 +44,7 @@ void add_reading_flag(CLI::App& verb, Reading& reading) {
 }  // namespace
 
 void add_face_flags(CLI::App& verb, FaceFlags& flags) {
-    verb.add_option("head", flags.head, "the neutral head: .glb .gltf .obj .off .ply")->required();
+    verb.add_option("head", flags.head, "the neutral head: .glb .gltf .fbx .obj .off .ply")->required();
     verb.add_option("--points", flags.points, "its feature points (.json)")->required();
     add_rig_flags(verb, flags);
 }

@@ -94,7 +94,7 @@ void add_morph(CLI::App& app, Call& call) {
                               "mien morph generic.glb --points generic.json --to kate-front.json --to kate-side.json "
                               "-o kate-rig.glb",
                               [&call, flags] { morph(call, *flags); });
-    verb->add_option("head", flags->face.head, "a neutral head (.glb .gltf .obj .off .ply) or a rig file (.glb)")
+    verb->add_option("head", flags->face.head, "a neutral head (.glb .gltf .fbx .obj .off .ply) or a rig file (.glb)")
         ->required();
     verb->add_option("--points", flags->face.points, "its feature points (.json); not given: head is a rig file");
     verb->add_option(

@@ -59,7 +59,7 @@ void add_points(CLI::App& app, Call& call) {
                               "Names the feature points that a head lacks and that would help most, and places them.",
                               "mien points kate.glb --points kate.json -o kate-more.json --count 7",
                               [&call, flags] { points(call, *flags); });
-    verb->add_option("head", flags->face.head, "the neutral head: .glb .gltf .obj .off .ply")->required();
+    verb->add_option("head", flags->face.head, "the neutral head: .glb .gltf .fbx .obj .off .ply")->required();
     verb->add_option("--points", flags->face.points, "the feature points that it has (.json)")->required();
     verb->add_option("-o,--output", flags->output, "write these points and the suggested ones (.json)");
     verb->add_option(

@@ -101,10 +101,10 @@ TEST_F(Read, what_a_parser_refuses_is_an_error_of_input_that_names_the_file) {
 }
 
 TEST_F(Read, an_unknown_extension_is_refused_before_the_file_is_opened) {
-    for (const char* name : {"a.fbx", "a", "a.trc", ".obj"}) {
+    for (const char* name : {"a.blend", "a", "a.trc", ".obj"}) {
         const Refusal found = refusal([&] { read_mesh(folder_ / name); });
         EXPECT_EQ(found.kind, Error::Kind::input) << name;
-        EXPECT_THAT(found.sentence, HasSubstr("expected a file that ends in .glb, .gltf, .obj, .off or .ply"));
+        EXPECT_THAT(found.sentence, HasSubstr("expected a file that ends in .glb, .gltf, .fbx, .obj, .off or .ply"));
     }
     EXPECT_THAT(refusal([&] { read_take(folder_ / "a.obj"); }).sentence, HasSubstr(".trc, .csv or .c3d"));
     EXPECT_THAT(refusal([&] { read_marker_map(folder_ / "a.txt"); }).sentence, HasSubstr(".csv or .json"));
