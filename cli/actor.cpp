@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "fap_files.hpp"
 #include "inputs.hpp"
 
+#include "mien/algorithms/bake_fat.hpp"
 #include "mien/algorithms/complete.hpp"
 #include "mien/algorithms/key_rows.hpp"
+#include "mien/algorithms/resolve_faps.hpp"
 #include "mien/algorithms/tracks.hpp"
 #include "mien/error.hpp"
 #include "mien/face.hpp"
@@ -50,6 +53,21 @@ Movement movement(const Actor& actor) {
 // How far apart pictures may be, and of how many vertices, when motion is looked at to choose from it.
 constexpr std::size_t most_times = 240, most_vertices = 500;
 
+// A face animation table plays as the morph targets that say the same.
+Actor tabled(const fs::path& file, const fs::path& faps, Report& report) {
+    const Fdp fdp = read_fdp(file);
+    const FapStream stream = faps.empty() ? FapStream{} : resolve_faps(load_faps(faps, report), fdp.fat);
+    Actor actor;
+    actor.name = file.stem().string();
+    actor.scene = parse_scene(format_glb(fdp.mesh, fat_morphs(fdp.fat, fdp.mesh, stream)), {});
+    actor.seconds = duration(actor.scene);
+    dress(actor.scene, nullptr);
+    report["file"] = file.filename().string();
+    report["vertices"] = vertex_count(fdp.mesh);
+    report["seconds"] = actor.seconds;
+    return actor;
+}
+
 Actor captured(const fs::path& file, Report& report) {
     Actor actor;
     actor.name = file.stem().string();
@@ -76,6 +94,7 @@ Actor actor_of(const std::string& name, const Mesh& mesh, std::optional<Rig> rig
 
 Actor load_actor(const fs::path& file, const fs::path& take, Report& report) {
     if (is_take(file)) return captured(file, report);
+    if (is_fdp(file)) return tabled(file, take, report);
     const Mesh mesh = read_mesh(file);
     const bool rigged = is_rig(mesh);
     if (!rigged && !take.empty())

@@ -57,6 +57,53 @@ FapStream load_faps(const std::filesystem::path& file, Report& report) {
     return decoded.stream;
 }
 
+bool is_fdp(const std::filesystem::path& file) {
+    const std::string extension = file.extension().string();
+    return extension == ".fat" || extension == ".bt" || extension == ".fdp" || extension == ".fapu" ||
+           extension == ".json";
+}
+
+void add_fdp_flags(CLI::App& verb, FdpFlags& flags) {
+    verb.add_option("--displacements", flags.displacements,
+                    "what the displacements of a .fat or .bt count: units of the FAP, or lengths of the model")
+        ->check(CLI::IsMember({"units", "lengths"}))
+        ->capture_default_str();
+    verb.add_option("--below-zero", flags.below_zero,
+                    "what they are multiplied by below zero: the signed value, or the way downward")
+        ->check(CLI::IsMember({"signed", "downward"}))
+        ->capture_default_str();
+}
+
+FdpTextOptions fdp_options(const FdpFlags& flags) {
+    return {flags.displacements == "units", flags.below_zero == "downward"};
+}
+
+namespace {
+
+Report table_report(const FaceDefTables& table, const Fat& fat) {
+    Report about{{"fap", table.fap}, {"name", fap_info(table.fap).name}};
+    if (table.high_level_select > 0) about["select"] = table.high_level_select;
+    for (const FaceDefMesh& mesh : table.meshes) {
+        about["vertices"] = about.value("vertices", std::size_t{0}) + mesh.vertices.size();
+        about["borders"].push_back(mesh.borders);
+    }
+    for (const FaceDefTransform& transform : table.transforms) about["nodes"].push_back(fat.nodes[transform.node].name);
+    return about;
+}
+
+}  // namespace
+
+void report_fdp(const Fdp& fdp, Report& report) {
+    for (const FeaturePoint& point : fdp.points) report["feature_points"].push_back(point.id);
+    const Fapu& fapu = fdp.fapu;
+    if (fapu.irisd > 0 || fapu.es > 0 || fapu.ens > 0 || fapu.mns > 0 || fapu.mw > 0)
+        report["units"] = {
+            {"irisd", fapu.irisd}, {"es", fapu.es}, {"ens", fapu.ens}, {"mns", fapu.mns}, {"mw", fapu.mw}};
+    for (const FatNode& node : fdp.fat.nodes)
+        report["nodes"].push_back({{"name", node.name}, {"vertices", node.vertices.size()}});
+    for (const FaceDefTables& table : fdp.fat.tables) report["parameters"].push_back(table_report(table, fdp.fat));
+}
+
 void add_fap_output_flags(CLI::App& verb, FapOutput& flags) {
     verb.add_option("-o,--output", flags.output, "what to write: .fap (text) or .fba (bitstream)")
         ->required()

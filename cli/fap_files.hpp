@@ -8,7 +8,9 @@
 #include "verb.hpp"
 
 #include "mien/fap.hpp"
+#include "mien/fdp.hpp"
 #include "mien/io/fba.hpp"
+#include "mien/io/fdp_text.hpp"
 
 namespace mien::cli {
 
@@ -17,6 +19,20 @@ bool is_faps(const std::filesystem::path& file);
 
 /// Reads a text file or a bitstream and tells the report what it sends; a stream that is cut is warned of.
 FapStream load_faps(const std::filesystem::path& file, Report& report);
+
+/// Whether a file holds a face definition, by its extension.
+bool is_fdp(const std::filesystem::path& file);
+
+/// Flags of verbs that read face definitions, and what they mean.
+struct FdpFlags {
+    std::string displacements = "units";
+    std::string below_zero = "signed";
+};
+void add_fdp_flags(CLI::App& verb, FdpFlags& flags);
+FdpTextOptions fdp_options(const FdpFlags& flags);
+
+/// Tells the report what a face definition holds: points, units and, parameter by parameter, the table.
+void report_fdp(const Fdp& fdp, Report& report);
 
 /// Flags of verbs that write face animation parameters.
 struct FapOutput {

@@ -23,6 +23,7 @@ namespace {
 struct Inspect {
     std::filesystem::path file;
     std::filesystem::path points;
+    FdpFlags definition;
 };
 
 Report xyz(const Vec3& v) {
@@ -116,6 +117,13 @@ void inspect(Call& call, const Inspect& flags) {
         load_faps(flags.file, report);
         return;
     }
+    if (is_fdp(flags.file)) {
+        const Fdp fdp = read_fdp(flags.file, fdp_options(flags.definition));
+        if (vertex_count(fdp.mesh) > 0) inspect_mesh(fdp.mesh, report);
+        report["kind"] = "face definition";
+        report_fdp(fdp, report);
+        return;
+    }
     const Mesh mesh = read_mesh(flags.file);
     inspect_mesh(mesh, report);
     if (is_rig(mesh)) inspect_rig(read_rig(flags.file).rig, report);
@@ -130,9 +138,10 @@ void add_inspect(CLI::App& app, Call& call) {
         add_verb(app, call, "inspect", "Says what is in a mesh, take or rig file, and what is odd about it.",
                  "mien inspect kate.glb --points kate.json", [&call, flags] { inspect(call, *flags); });
     verb->add_option("file", flags->file,
-                     "a mesh (.glb .gltf .obj .off .ply), take (.trc .csv .c3d), rig (.glb) or animation parameters "
-                     "(.fap .fba)")
+                     "a mesh (.glb .gltf .obj .off .ply), take (.trc .csv .c3d), rig (.glb), animation parameters "
+                     "(.fap .fba) or face definition (.fat .bt .fdp .fapu .json)")
         ->required();
+    add_fdp_flags(*verb, flags->definition);
     verb->add_option("--points", flags->points, "feature points of the mesh, to be checked against it (.json)");
 }
 

@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
     add_morph(app, call);
     add_evaluate(app, call);
     add_shapes(app, call);
+    add_fat(app, call);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -109,13 +109,14 @@ void write_joints(Call& call, const OutputFlags& flags, const Mesh& mesh, const 
     write_output(call, flags.output, format_glb(mesh, rig, skin, take, options));
 }
 
-void write_morphs(Call& call, const OutputFlags& flags, const MeshSequence& sequence) {
-    const MorphTrack track = bake_morphs(sequence, flags.morphs);
+}  // namespace
+
+void write_morphs(Call& call, const OutputFlags& flags, const Mesh& mesh, const MorphTrack& track) {
     Report& about = call.report["morph_bake"];
     about["morph_targets"] = track.targets.size();
-    report_error(about, track.mean_error, track.max_error, height(sequence.mesh));
-    check_gate(flags, track.max_error, height(sequence.mesh));
-    write_output(call, flags.output, format_glb(sequence.mesh, track));
+    report_error(about, track.mean_error, track.max_error, height(mesh));
+    check_gate(flags, track.max_error, height(mesh));
+    write_output(call, flags.output, format_glb(mesh, track));
 }
 
 void write_cache(Call& call, const OutputFlags& flags, const MeshSequence& sequence) {
@@ -132,8 +133,6 @@ void write_cache(Call& call, const OutputFlags& flags, const MeshSequence& seque
         {"file", flags.output.string()}, {"rows", sequence.times.size()}, {"vertices", vertex_count(sequence.mesh)}};
 }
 
-}  // namespace
-
 void write_performance(Call& call, const OutputFlags& flags, const Mesh& mesh, const Rig& rig, const Take& take) {
     const bool glb = flags.output.extension() == ".glb";
     if (flags.head_motion && !(glb && flags.bake == "joints"))
@@ -141,7 +140,7 @@ void write_performance(Call& call, const OutputFlags& flags, const Mesh& mesh, c
     if (glb && flags.bake == "joints")
         write_joints(call, flags, mesh, rig, take);
     else if (glb)
-        write_morphs(call, flags, deform(rig, mesh, take));
+        write_morphs(call, flags, mesh, bake_morphs(deform(rig, mesh, take), flags.morphs));
     else
         write_cache(call, flags, deform(rig, mesh, take));
 }

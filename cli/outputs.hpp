@@ -36,6 +36,12 @@ void check_output(const std::filesystem::path& output, const std::vector<std::fi
 /// Writes the head performing the take in the form that the output's name asks for, and reports what the form cost.
 void write_performance(Call& call, const OutputFlags& flags, const Mesh& mesh, const Rig& rig, const Take& take);
 
+/// Writes a head that morph targets move (.glb).
+void write_morphs(Call& call, const OutputFlags& flags, const Mesh& mesh, const MorphTrack& track);
+
+/// Writes a mesh over time as the output's name asks for, but for a .glb.
+void write_cache(Call& call, const OutputFlags& flags, const MeshSequence& sequence);
+
 /// Writes bytes unless this is a dry run, and reports them.
 void write_output(Call& call, const std::filesystem::path& output, const std::vector<std::byte>& bytes);
 

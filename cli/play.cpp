@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the mien authors
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fap_files.hpp"
 #include "outputs.hpp"
 
+#include "mien/algorithms/bake_fat.hpp"
 #include "mien/algorithms/complete.hpp"
+#include "mien/algorithms/deform.hpp"
 #include "mien/algorithms/faps.hpp"
 #include "mien/algorithms/fapu.hpp"
 #include "mien/algorithms/resolve_faps.hpp"
@@ -25,6 +29,7 @@ struct Play {
     std::filesystem::path faps;
     std::filesystem::path fit;  // empty: none
     OutputFlags output;
+    FdpFlags definition;
 };
 
 // The table that fills what the stream leaves out, if one is given.
@@ -43,9 +48,55 @@ Take told(const Take& take, const std::vector<std::string>& points) {
     return rename_points(take, names);
 }
 
+FapStream without_head_turns(FapStream stream) {
+    for (FapFrame& frame : stream.frames)
+        for (const int fap : {48, 49, 50}) frame.mask.reset(fap_index(fap));
+    return stream;
+}
+
+bool turns_head(const FapStream& stream) {
+    return std::any_of(stream.frames.begin(), stream.frames.end(), [](const FapFrame& frame) {
+        return frame.mask[fap_index(48)] || frame.mask[fap_index(49)] || frame.mask[fap_index(50)];
+    });
+}
+
+// The parameters that the stream sends and no table moves anything by.
+std::vector<std::string> not_in_table(const FapStream& stream, const Fat& fat) {
+    FapMask sent;
+    for (const FapFrame& frame : stream.frames)
+        for (std::size_t i = 0; i < fap_count; ++i)
+            if (frame.value[i] != 0) sent.set(i);
+    for (const FaceDefTables& table : fat.tables) sent.reset(fap_index(table.fap));
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < fap_count; ++i)
+        if (sent[i]) names.emplace_back(faps[i].name);
+    return names;
+}
+
+// A face animation table says by itself what every vertex does.
+void play_table(Call& call, const Play& flags) {
+    const Fdp fdp = read_fdp(flags.rig, fdp_options(flags.definition));
+    if (fdp.fat.tables.empty())
+        throw Error(flags.rig.string() + ": expected a face definition with a table, found none");
+    const FapInterpolation fit = load_fit(flags.fit, call.report);
+    FapStream stream = resolve_faps(load_faps(flags.faps, call.report), fdp.fat, fit);
+    call.report["table"] = {{"file", flags.rig.filename().string()},
+                            {"vertices", vertex_count(fdp.mesh)},
+                            {"tables", fdp.fat.tables.size()}};
+    call.report["parameters_not_in_the_table"] = not_in_table(stream, fdp.fat);
+    if (turns_head(stream) && !flags.output.head_motion)
+        call.report["head_turns"] = "in the stream; --head-motion plays them";
+    if (!flags.output.head_motion) stream = without_head_turns(std::move(stream));
+    if (flags.output.output.extension() == ".glb")
+        write_morphs(call, flags.output, fdp.mesh, fat_morphs(fdp.fat, fdp.mesh, stream));
+    else
+        write_cache(call, flags.output, deform(fdp.fat, fdp.mesh, stream));
+}
+
 // Points of which the stream says nothing are carried by the skin between the others.
 void play(Call& call, const Play& flags) {
     check_output(flags.output.output, {flags.rig, flags.faps, flags.fit}, call.flags);
+    if (is_fdp(flags.rig)) return play_table(call, flags);
     RigFile file = read_rig(flags.rig);
     const Face face{file.mesh, file.rig.points};
     const Fapu fapu = measure_fapu(face);
@@ -69,14 +120,18 @@ void play(Call& call, const Play& flags) {
 
 void add_play(CLI::App& app, Call& call) {
     const auto flags = std::make_shared<Play>();
-    CLI::App* verb =
-        add_verb(app, call, "play", "Plays face animation parameters on a rigged face, in the face's own MPEG-4 units.",
-                 "mien play kate-rig.glb smile.fap -o kate-smiles.glb", [&call, flags] { play(call, *flags); });
-    verb->add_option("rig", flags->rig, "the rigged face (.glb written by mien rig)")->required();
+    CLI::App* verb = add_verb(
+        app, call, "play", "Plays face animation parameters on a rigged face, or on one with a face animation table.",
+        "mien play kate-rig.glb smile.fap -o kate-smiles.glb\n  mien play kate.fat smile.fap -o kate-smiles.glb",
+        [&call, flags] { play(call, *flags); });
+    verb->add_option("rig", flags->rig,
+                     "the rigged face (.glb written by mien rig), or its face animation table (.fat .bt .json)")
+        ->required();
     verb->add_option("faps", flags->faps, "the parameters: .fap .fba")->required();
     verb->add_option("--fit", flags->fit,
                      "how parameters that are not sent follow from those that are: an interpolation table (.json)");
     add_output_flags(*verb, flags->output);
+    add_fdp_flags(*verb, flags->definition);
 }
 
 }  // namespace mien::cli

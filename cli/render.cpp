@@ -172,9 +172,14 @@ void add_render(CLI::App& app, Call& call) {
                  "mien render kate-smiles.glb -o kate-smiles.mp4\n"
                  "  mien render kate-rig.glb --take smile-on-kate.csv --sheet --view three-quarter -o kate.png",
                  [&call, flags] { render(call, *flags); });
-    verb->add_option("input", flags->input, "a head (.glb .gltf .obj .off .ply), moving or not, a rig file or a take")
+    verb->add_option(
+            "input", flags->input,
+            "a head (.glb .gltf .obj .off .ply), moving or not, a rig file, a take or a face animation table (.fat .bt "
+            ".json)")
         ->required();
-    verb->add_option("--take", flags->take, "for a rig file: the motion of its own points, as mien retarget writes it");
+    verb->add_option("--take", flags->take,
+                     "for a rig file: the motion of its own points, as mien retarget writes it; for a table: its "
+                     "parameters (.fap .fba)");
     verb->add_option("-o,--output", flags->output, "what to write: .png, .mp4, .webm, or a folder for .png frames")
         ->required()
         ->check(CLI::Validator(check_extension, ""));

@@ -59,5 +59,6 @@ void add_fap(CLI::App& app, Call& call);
 void add_morph(CLI::App& app, Call& call);
 void add_evaluate(CLI::App& app, Call& call);
 void add_shapes(CLI::App& app, Call& call);
+void add_fat(CLI::App& app, Call& call);
 
 }  // namespace mien::cli

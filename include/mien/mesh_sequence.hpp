@@ -22,13 +22,14 @@ struct MeshSequence {
 };
 
 /// A mesh over time as a few morph targets and their weights: positions(row) = neutral + sum_k weights(row, k)
-/// target_k.
+/// target_k, and then the head's pose.
 struct MorphTrack {
     std::vector<MorphTarget> targets;
     std::vector<double> times;   ///< seconds, one per row
     std::vector<float> weights;  ///< rows x targets, row after row
     double mean_error = 0;       ///< root mean square distance to the sequence it was made from, in the mesh's unit
     double max_error = 0;        ///< largest distance of any vertex in any row
+    std::vector<Pose> head;      ///< empty, or what the whole head does after that, one pose per row
 };
 
 }  // namespace mien

@@ -264,7 +264,8 @@ MorphTrack bake_morphs(const MeshSequence& sequence, const BakeOptions& options)
     weights = fit_weights(sequence, motion, targets);
     scale_to_one(targets, weights);
 
-    MorphTrack track{{}, sequence.times, {}, 0, 0};
+    MorphTrack track;
+    track.times = sequence.times;
     for (Index k = 0; k < targets.rows(); ++k) track.targets.push_back(morph_target(targets, k, motion));
     for (Index r = 0; r < weights.rows(); ++r)
         for (Index k = 0; k < weights.cols(); ++k) track.weights.push_back(static_cast<float>(weights(r, k)));

@@ -17,34 +17,21 @@
 #include <memory>
 #include <vector>
 
+#include "algorithms/fat_steps.hpp"
 #include "algorithms/rotation.hpp"
 
 #include "mien/algorithms/deform.hpp"
 
 namespace mien {
 
-namespace {
-
-// How far the value goes through interval j on its way from zero; the outermost intervals have no end.
-double step(std::span<const std::int32_t> borders, std::size_t j, double f) noexcept {
+double fat_step(std::span<const std::int32_t> borders, std::size_t j, double value) noexcept {
     constexpr double no_end = std::numeric_limits<double>::infinity();
     const double low = j == 0 ? -no_end : borders[j];
     const double high = j + 2 == borders.size() ? no_end : borders[j + 1];
-    return std::clamp(f, low, high) - std::clamp(0.0, low, high);
+    return std::clamp(value, low, high) - std::clamp(0.0, low, high);
 }
 
-void add_offsets(const FaceDefMesh& mesh, double f, std::span<Vec3f> positions) noexcept {
-    const std::size_t intervals = mesh.borders.size() - 1;
-    for (std::size_t j = 0; j < intervals; ++j) {
-        const auto way = static_cast<float>(step(mesh.borders, j, f));
-        if (way == 0) continue;
-        for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-            positions[mesh.vertices[i]] += way * mesh.displacements[i * intervals + j];
-    }
-}
-
-// What a frame asks of a table: its value, or a viseme's share of the blend, or an expression's intensity.
-double value_of(const FapFrame& frame, const FaceDefTables& table) noexcept {
+double fat_value(const FapFrame& frame, const FaceDefTables& table) noexcept {
     if (!frame.mask[fap_index(table.fap)]) return 0;
     const auto selected = [&](std::uint8_t select, int amount) {
         return select == table.high_level_select ? amount : 0;
@@ -56,6 +43,18 @@ double value_of(const FapFrame& frame, const FaceDefTables& table) noexcept {
         return selected(frame.expression.select1, frame.expression.intensity1) +
                selected(frame.expression.select2, frame.expression.intensity2);
     return frame.value[fap_index(table.fap)];
+}
+
+namespace {
+
+void add_offsets(const FaceDefMesh& mesh, double f, std::span<Vec3f> positions) noexcept {
+    const std::size_t intervals = mesh.borders.size() - 1;
+    for (std::size_t j = 0; j < intervals; ++j) {
+        const auto way = static_cast<float>(fat_step(mesh.borders, j, f));
+        if (way == 0) continue;
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+            positions[mesh.vertices[i]] += way * mesh.displacements[i * intervals + j];
+    }
 }
 
 Quaternion turn_about(const Vec3& axis, double angle) noexcept {
@@ -91,7 +90,7 @@ Placement placement_of(const Fat& fat, std::size_t node, const FapFrame& frame) 
     for (int order = 0; order <= last_turn; ++order)
         for (const FaceDefTables& table : fat.tables) {
             if (turn_order(table.fap) != order) continue;
-            const double f = value_of(frame, table);
+            const double f = fat_value(frame, table);
             if (f == 0) continue;
             for (const FaceDefTransform& transform : table.transforms)
                 if (transform.node == node) add_transform(placement, transform, f);
@@ -99,29 +98,39 @@ Placement placement_of(const Fat& fat, std::size_t node, const FapFrame& frame) 
     return placement;
 }
 
-Vec3 placed(const Placement& placement, const Vec3& centre, const Vec3& p) noexcept {
-    const Vec3 arm = p - centre;
-    const Vec3 scaled{placement.scale.x * arm.x, placement.scale.y * arm.y, placement.scale.z * arm.z};
-    return centre + rotate(placement.turn, scaled) + placement.shift;
-}
-
-void place(const FatNode& node, const Placement& placement, std::span<Vec3f> positions) noexcept {
-    if (!placement.moves) return;
-    for (const std::uint32_t v : node.vertices)
-        positions[v] = to_float(placed(placement, node.centre, to_double(positions[v])));
+Affine map_of(const Placement& placement, const Vec3& centre) noexcept {
+    const Affine about_origin = affine_map({}, placement.turn, placement.scale);
+    return {about_origin.columns, centre + placement.shift - turned(about_origin, centre)};
 }
 
 }  // namespace
+
+Affine fat_map(const Fat& fat, std::size_t node, const FapFrame& frame) noexcept {
+    const Placement placement = placement_of(fat, node, frame);
+    return placement.moves ? map_of(placement, fat.nodes[node].centre) : Affine{};
+}
+
+Pose fat_pose(const Fat& fat, std::size_t node, const FapFrame& frame) noexcept {
+    const Placement placement = placement_of(fat, node, frame);
+    if (!placement.moves) return {};
+    const Vec3& centre = fat.nodes[node].centre;
+    return {placement.turn, centre + placement.shift - rotate(placement.turn, centre)};
+}
 
 void deform(const Fat& fat, std::span<const Vec3f> rest, const FapFrame& frame, std::span<Vec3f> positions) noexcept {
     assert(rest.size() == positions.size());
     std::copy(rest.begin(), rest.end(), positions.begin());
     for (const FaceDefTables& table : fat.tables) {
-        const double f = value_of(frame, table);
+        const double f = fat_value(frame, table);
         if (f == 0) continue;
         for (const FaceDefMesh& mesh : table.meshes) add_offsets(mesh, f, positions);
     }
-    for (std::size_t n = 0; n < fat.nodes.size(); ++n) place(fat.nodes[n], placement_of(fat, n, frame), positions);
+    for (std::size_t n = 0; n < fat.nodes.size(); ++n) {
+        const Affine map = fat_map(fat, n, frame);
+        if (map == Affine{}) continue;
+        for (const std::uint32_t v : fat.nodes[n].vertices)
+            positions[v] = to_float(moved(map, to_double(positions[v])));
+    }
 }
 
 MeshSequence deform(const Fat& fat, const Mesh& mesh, const FapStream& stream) {

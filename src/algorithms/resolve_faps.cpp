@@ -223,4 +223,56 @@ FapStream resolve_faps(const FapStream& stream, FapPoses poses, const FapInterpo
     return resolved;
 }
 
+namespace {
+
+// Which visemes and expressions a table has.
+struct HighLevels {
+    std::array<bool, viseme_names.size()> visemes{};
+    std::array<bool, expression_names.size()> expressions{};
+};
+
+HighLevels high_levels(const Fat& fat) {
+    HighLevels has;
+    for (const FaceDefTables& table : fat.tables) {
+        if (table.fap == 1) has.visemes.at(static_cast<std::size_t>(table.high_level_select)) = true;
+        if (table.fap == 2) has.expressions.at(static_cast<std::size_t>(table.high_level_select)) = true;
+    }
+    return has;
+}
+
+template <std::size_t count>
+bool has(const std::array<bool, count>& selects, std::size_t select) {
+    return select < count && selects[select];
+}
+
+}  // namespace
+
+FapStream resolve_faps(const FapStream& stream, const Fat& fat, const FapInterpolation& fit) {
+    const HighLevels own = high_levels(fat);
+    FapPoses poses = standard_poses();
+    for (std::size_t s = 0; s < own.visemes.size(); ++s)
+        if (own.visemes[s]) poses.visemes[s] = {};
+    for (std::size_t s = 0; s < own.expressions.size(); ++s)
+        if (own.expressions[s]) poses.expressions[s] = {};
+    FapStream asked = stream;
+    for (FapFrame& frame : asked.frames) {
+        if (has(own.visemes, frame.viseme.select1)) frame.viseme.define = false;
+        if (has(own.expressions, frame.expression.select1)) frame.expression.define = false;
+    }
+    FapStream resolved = resolve_faps(asked, poses, fit);
+    Viseme viseme;
+    Expression expression;
+    for (std::size_t i = 0; i < resolved.frames.size(); ++i) {
+        const FapFrame& sent = asked.frames[i];
+        if (sent.mask[fap_index(1)]) viseme = sent.viseme;
+        if (sent.mask[fap_index(2)]) expression = sent.expression;
+        FapFrame& frame = resolved.frames[i];
+        frame.mask[fap_index(1)] = has(own.visemes, viseme.select1) || has(own.visemes, viseme.select2);
+        frame.mask[fap_index(2)] = has(own.expressions, expression.select1) || has(own.expressions, expression.select2);
+        if (frame.mask[fap_index(1)]) frame.viseme = viseme;
+        if (frame.mask[fap_index(2)]) frame.expression = expression;
+    }
+    return resolved;
+}
+
 }  // namespace mien

@@ -43,6 +43,9 @@ void check(const MorphTrack& track) {
     if (track.weights.size() != values)
         throw Error(fmt::format("morphs: expected {} weights of {} targets in {} rows, found {}", values,
                                 track.targets.size(), track.times.size(), track.weights.size()));
+    if (!track.head.empty() && track.head.size() != track.times.size())
+        throw Error(fmt::format("morphs: expected a head pose for each of {} rows, found {}", track.times.size(),
+                                track.head.size()));
 }
 
 // One target on one primitive: which of its vertices move, and how far.
@@ -169,19 +172,57 @@ Primitives primitives_of(const BaseDocument& base, std::size_t node) {
     return {first, std::upper_bound(first, base.primitives.end(), mesh, is_after)};
 }
 
-void append_animation(GltfDocument& document, const std::vector<MorphedMesh>& all, const MorphTrack& track) {
-    const Keys keys = keys_of(track.times);
-    if (all.empty() || keys.times.empty()) return;
-    const std::size_t input = append_floats(document, keys.times, Elements::scalar, BufferTarget::none, Bounds::given);
+// A sampler and a channel for each thing that moves.
+struct Animation {
+    std::size_t input;
     json samplers = json::array(), channels = json::array();
+};
+
+void append_channel(Animation& animation, std::size_t node, const char* path, std::size_t output) {
+    animation.channels.push_back(
+        {{"sampler", animation.samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+    animation.samplers.push_back({{"input", animation.input}, {"output", output}, {"interpolation", "LINEAR"}});
+}
+
+// The head as a node above its meshes, which are roots of the scene until then.
+std::size_t hang_on_head(BaseDocument& base) {
+    json& root = base.document.json;
+    const std::size_t head = append_object(base.document, "nodes", {{"name", "head"}, {"children", base.mesh_nodes}});
+    json roots = json::array({head});
+    for (const json& node : root["scenes"][base.scene]["nodes"])
+        if (std::find(base.mesh_nodes.begin(), base.mesh_nodes.end(), node.get<std::size_t>()) == base.mesh_nodes.end())
+            roots.push_back(node);
+    root["scenes"][base.scene]["nodes"] = std::move(roots);
+    return head;
+}
+
+void append_head(BaseDocument& base, Animation& animation, const MorphTrack& track, const Keys& keys) {
+    std::vector<float> rotations, translations;
+    for (const std::size_t r : keys.rows) {
+        append_rotation(rotations, track.head[r].rotation);
+        append_translation(translations, track.head[r].translation);
+    }
+    const std::size_t head = hang_on_head(base);
+    append_channel(animation, head, "rotation",
+                   append_floats(base.document, rotations, Elements::vec4, BufferTarget::none));
+    append_channel(animation, head, "translation",
+                   append_floats(base.document, translations, Elements::vec3, BufferTarget::none));
+}
+
+void append_animation(BaseDocument& base, const std::vector<MorphedMesh>& all, const MorphTrack& track) {
+    const Keys keys = keys_of(track.times);
+    if ((all.empty() && track.head.empty()) || keys.times.empty()) return;
+    GltfDocument& document = base.document;
+    Animation animation{append_floats(document, keys.times, Elements::scalar, BufferTarget::none, Bounds::given)};
     for (const MorphedMesh& moving : all) {
         const std::vector<float> weights = weights_at_keys(moving, track.weights, track.targets.size(), keys);
-        const std::size_t output = append_floats(document, weights, Elements::scalar, BufferTarget::none);
-        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", moving.node}, {"path", "weights"}}}});
-        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+        append_channel(animation, moving.node, "weights",
+                       append_floats(document, weights, Elements::scalar, BufferTarget::none));
     }
-    append_object(document, "animations",
-                  {{"name", "take"}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}});
+    if (!track.head.empty()) append_head(base, animation, track, keys);
+    append_object(
+        document, "animations",
+        {{"name", "take"}, {"samplers", std::move(animation.samplers)}, {"channels", std::move(animation.channels)}});
 }
 
 }  // namespace
@@ -210,7 +251,8 @@ std::vector<float> weights_at_keys(const MorphedMesh& mesh, std::span<const floa
 std::vector<std::byte> format_glb(const Mesh& mesh, const MorphTrack& track) {
     check(track);
     BaseDocument base = base_document(mesh);
-    append_animation(base.document, append_morphs(base, vertex_count(mesh), track.targets), track);
+    const std::vector<MorphedMesh> all = append_morphs(base, vertex_count(mesh), track.targets);
+    append_animation(base, all, track);
     return format_glb(base.document);
 }
 

@@ -7,6 +7,7 @@
 
 #include "mien/fap.hpp"
 #include "mien/fap_interpolation.hpp"
+#include "mien/fat.hpp"
 
 namespace mien {
 
@@ -36,5 +37,9 @@ FapPoses standard_poses();
 /// FAPs 1 and 2 that are not sent hold, too; what a table gave does not, but is asked for anew in every frame. A face
 /// without them and without a source rests: the parameter stays out. Throws Error where the table is refused.
 FapStream resolve_faps(const FapStream& stream, FapPoses poses = standard_poses(), const FapInterpolation& fit = {});
+
+/// The same for a face that has a table: visemes and expressions that the table moves vertices for stay in FAPs 1 and
+/// 2, held until others are sent, and what a frame defines does not change them; the others go by `standard_poses`.
+FapStream resolve_faps(const FapStream& stream, const Fat& fat, const FapInterpolation& fit = {});
 
 }  // namespace mien
