@@ -295,9 +295,8 @@ const BifsNode* node_of(const BifsText& text, const BifsNode& node, std::string_
 Vec3 vector_of(const BifsNode& node, std::string_view field, const Vec3& otherwise) {
     const std::span<const double> numbers = numbers_of(node, field);
     if (numbers.empty()) return otherwise;
-    const bool fits = numbers.size() == 3 && std::all_of(numbers.begin(), numbers.end(), [](double number) {
-                          return std::abs(number) <= std::numeric_limits<float>::max();
-                      });
+    const bool fits = numbers.size() == 3 &&
+                      std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
     if (!fits)
         fail_at_line(find_field(node, field)->line,
                      fmt::format("expected three finite numbers for {}, found others", field));

@@ -20,6 +20,9 @@ struct NamedUnit {
 inline constexpr std::array<NamedUnit, 5> named_units{
     {{"IRISD0", &Fapu::irisd}, {"ES0", &Fapu::es}, {"ENS0", &Fapu::ens}, {"MNS0", &Fapu::mns}, {"MW0", &Fapu::mw}}};
 
+/// What a unit has to be above so that displacements divide by it.
+inline constexpr double least_unit = 1e-30;
+
 /// The units that the points tell by their definition in the standard; 0 for the others.
 Fapu units_of_points(std::span<const FeaturePoint> points);
 

@@ -245,7 +245,7 @@ private:
     [[nodiscard]] double unit(const BifsNode& node, int fap) const {
         if (!options_.displacements_in_units || fap <= 2) return 1;
         const double length = unit_length(fapu_, fap_info(fap).unit);
-        if (length > 0) return length;
+        if (length > least_unit) return length;
         fail_at_line(node.line,
                      fmt::format("expected the unit of FAP {} ({}) from the points or a WorldInfo, found none", fap,
                                  fap_info(fap).name));

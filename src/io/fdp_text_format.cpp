@@ -251,7 +251,7 @@ private:
     [[nodiscard]] double unit(int fap) const {
         if (fap <= 2) return 1;
         const double length = unit_length(fdp_.fapu, fap_info(fap).unit);
-        if (!(length > 0))
+        if (!(length > least_unit))
             throw Error(fmt::format("fdp text: expected the unit of FAP {} ({}) above 0, found {}", fap,
                                     fap_info(fap).name, length));
         return length;

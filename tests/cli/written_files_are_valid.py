@@ -51,6 +51,21 @@ def shaped():
         yield "ict-shapes", ict / "ict_neutral.obj", ict / "feature_points.json"
 
 
+def tabled():
+    """(name, head, points) of heads that are to get face animation tables."""
+    yield "sample-table", HEAD, POINTS
+    if SHARED.is_dir():
+        yield "ict-table", SHARED / "ict" / "ict_neutral.obj", SHARED / "ict" / "feature_points.json"
+
+
+def talk():
+    """A jaw that opens, eyes that look aside, a head that turns."""
+    sent = (3, 23, 24, 49)
+    mask = " ".join("1" if fap in sent else "0" for fap in range(1, 69))
+    rows = (f"{mask}\n{i} {60 * i} {900 * i} {900 * i} {2000 * i}\n" for i in range(12))
+    return "2.1 talk 25 12\n" + "".join(rows)
+
+
 def write_all(folder):
     """Writes everything; gives back the files and what went wrong."""
     written, wrong, rigged = [], [], set()
@@ -74,6 +89,19 @@ def write_all(folder):
             wrong.append(f"mien shapes {head}: {result.stderr}")
         else:
             written.append(output)
+    for name, head, points in tabled():
+        rig, table, faps = folder / f"{name}-rig.glb", folder / f"{name}.fat", folder / "talk.fap"
+        faps.write_text(talk(), encoding="utf-8")
+        calls = (("rig", head, "--points", points, "-o", rig), ("fat", rig, "-o", table),
+                 ("fat", table, "-o", folder / f"{name}-by-parameters.glb"),
+                 ("play", table, faps, "-o", folder / f"{name}-plays.glb"),
+                 ("play", table, faps, "--head-motion", "-o", folder / f"{name}-plays-and-turns.glb"))
+        for call in calls:
+            result = run(*call)
+            if result.returncode:
+                wrong.append(f"mien {' '.join(map(str, call))}: {result.stderr}")
+            elif call[-1].suffix == ".glb":
+                written.append(call[-1])
     return written, wrong
 
 

@@ -282,6 +282,21 @@ TEST(PlayedMorphs, a_target_that_names_a_vertex_and_leaves_it_still_is_there_by_
     EXPECT_EQ(player.root().count("animations"), 0U);
 }
 
+TEST(PlayedMorphs, go_with_the_head) {
+    const Mesh mesh = shapes::mask().mesh;
+    MorphTrack track = two_targets(mesh);
+    const Quaternion turn{0, std::sin(0.3), 0, std::cos(0.3)};
+    track.head = {{}, {turn, {1, 2, 3}}, {{0, 0, std::sin(-0.1), std::cos(0.1)}, {0, 0, 1}}};
+    const Player player(format_glb(mesh, track));
+    for (std::size_t r = 0; r < track.times.size(); ++r)
+        EXPECT_LE(largest_distance(player.positions(track.times[r]), sources(player, mesh),
+                                   [&](std::uint32_t v) { return apply(track.head[r], morphed(mesh, track, v, r)); }),
+                  2 * rounding)
+            << "row " << r;
+    track.head.pop_back();
+    EXPECT_THROW(static_cast<void>(format_glb(mesh, track)), Error);
+}
+
 // The dome and the ball as two meshes: a target moves only the ball.
 TEST(PlayedMorphs, leave_other_meshes_still) {
     Mesh mesh = shapes::mask().mesh;
