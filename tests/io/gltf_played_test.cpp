@@ -18,6 +18,7 @@
 #include "io/gltf_player.hpp"
 #include "shapes.hpp"
 
+#include "mien/error.hpp"
 #include "mien/io/gltf.hpp"
 
 namespace mien {
