@@ -271,5 +271,42 @@ TEST(ResolveFaps, TheStandardPosesAreWhole) {
     EXPECT_GT(poses.expressions[6].value[fap_index(3)], 0);
 }
 
+// A table that has viseme 4 and nothing else of FAPs 1 and 2.
+Fat one_viseme() {
+    return {{}, {{1, 4, {{{0, 63}, {0}, {{0, 0, 1}}}}, {}}}};
+}
+
+FapFrame speaking(std::uint32_t number, Viseme viseme) {
+    FapFrame frame;
+    frame.number = number;
+    frame.mask.set(fap_index(1));
+    frame.viseme = viseme;
+    return frame;
+}
+
+TEST(ResolveFaps, LeavesVisemesThatATableHasToTheTable) {
+    FapStream stream;
+    stream.frames = {speaking(0, {4, 10, 63, false}), FapFrame{}, speaking(2, {10, 4, 63, false}),
+                     speaking(3, {10, 0, 63, false})};
+    stream.frames[1].number = 1;
+    const FapStream result = resolve_faps(stream, one_viseme());
+    ASSERT_EQ(result.frames.size(), 4U);
+    for (const std::size_t held : {0U, 1U}) {
+        EXPECT_TRUE(result.frames[held].mask[fap_index(1)]);
+        EXPECT_EQ(result.frames[held].viseme, stream.frames[0].viseme);
+        EXPECT_EQ(result.frames[held].value[fap_index(3)], 0);  // all of the blend is the table's
+    }
+    EXPECT_TRUE(result.frames[2].mask[fap_index(1)]);
+    EXPECT_GT(result.frames[2].value[fap_index(3)], 0);  // "aa" opens the jaw by its pose
+    EXPECT_FALSE(result.frames[3].mask[fap_index(1)]);
+    EXPECT_EQ(result.frames[3].value[fap_index(3)], result.frames[2].value[fap_index(3)]);
+}
+
+TEST(ResolveFaps, WithATableWithoutVisemesIsWhatItIsWithoutATable) {
+    FapStream stream;
+    stream.frames = {speaking(0, {4, 10, 30, false}), speaking(1, {2, 10, 30, false})};
+    EXPECT_EQ(resolve_faps(stream, Fat{}).frames, resolve_faps(stream).frames);
+}
+
 }  // namespace
 }  // namespace mien
