@@ -283,6 +283,9 @@ void plays_like_its_rig(const Face& face, double most_mean, double most) {
     for (const FapFrame& frame : stream.frames) options.sent |= frame.mask;
     const BakedFat result = bake_fat(rig, face.mesh, fapu, options);
     EXPECT_NO_THROW(check_fat(result.fat, vertex_count(face.mesh)));
+    // A jaw goes straight; lids slide over an eye, which takes borders.
+    EXPECT_EQ(table_of(result.fat, 3)->meshes.at(0).borders.size(), 3U);
+    EXPECT_GT(table_of(result.fat, 19)->meshes.at(0).borders.size(), 3U);
     std::vector<Rename> names;
     for (const std::string& id : told_points(stream, fapu)) names.push_back({id, id});
     const Take take = complete(face, rename_points(to_take(stream, fapu), names));
