@@ -51,6 +51,8 @@ TEST(Fat, IsRefusedWithBordersThatDoNotAscendThroughZero) {
 TEST(Fat, IsRefusedWithoutAFiniteVectorPerVertexAndInterval) {
     EXPECT_THAT(refused([](Fat& fat) { fat.tables[0].meshes[0].displacements.pop_back(); }),
                 HasSubstr("expected 4 displacements, one per vertex and interval, found 3"));
+    EXPECT_THAT(refused([](Fat& fat) { fat.tables[0].meshes[0].displacements.resize(2); }),
+                HasSubstr("expected 4 displacements, one per vertex and interval, found 2"));
     EXPECT_THAT(
         refused([](Fat& fat) { fat.tables[0].meshes[0].displacements[0].x = std::numeric_limits<float>::infinity(); }),
         HasSubstr("finite"));

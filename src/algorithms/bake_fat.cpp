@@ -42,8 +42,8 @@ std::vector<std::int32_t> values_of(int fap) {
         for (std::size_t i = 0; i < tried.size(); ++i)
             if (i < always_tried || tried[i] <= most) above.push_back(tried[i]);
     }
-    std::vector<std::int32_t> values;
-    for (auto v = above.rbegin(); v != above.rend(); ++v) values.push_back(-*v);
+    std::vector<std::int32_t> values(above.rbegin(), above.rend());
+    for (std::int32_t& value : values) value = -value;
     values.push_back(0);
     values.insert(values.end(), above.begin(), above.end());
     return values;

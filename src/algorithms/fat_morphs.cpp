@@ -75,6 +75,12 @@ std::string name_of(const FaceDefTables& table, const FaceDefMesh& mesh, const s
     return name;
 }
 
+struct Axis {
+    char name;
+    double Vec3::*entry;
+};
+constexpr std::array<Axis, 3> axes{{{'x', &Vec3::x}, {'y', &Vec3::y}, {'z', &Vec3::z}}};
+
 class Collector {
 public:
     Collector(const Fat& fat, const Mesh& mesh, const FapStream& stream) : fat_(fat), mesh_(mesh), stream_(stream) {}
@@ -123,30 +129,38 @@ private:
         for (const FapFrame& frame : stream_.frames) maps.push_back(fat_map(fat_, n, frame));
         if (std::all_of(maps.begin(), maps.end(), [](const Affine& map) { return map == Affine{}; })) return;
         if (node.vertices.size() == vertex_count(mesh_)) return add_head(n);
-        constexpr std::array<std::pair<char, double Vec3::*>, 3> axes{
-            {{'x', &Vec3::x}, {'y', &Vec3::y}, {'z', &Vec3::z}}};
         for (std::size_t column = 0; column < 3; ++column)
-            for (const auto& [row, entry] : axes) {
-                std::vector<float> weights;
-                for (const Affine& map : maps)
-                    weights.push_back(static_cast<float>(map.columns[column].*entry - Affine{}.columns[column].*entry));
-                const auto arm = [&](std::uint32_t v) { return to_double(mesh_.positions[v]) - node.centre; };
-                add_entry(node, fmt::format("{} {}{}", node.name, row, axes[column].first), std::move(weights),
-                          [&, entry = entry](std::uint32_t v) {
-                              Vec3 delta;
-                              delta.*entry = arm(v).*(axes[column].second);
-                              return to_float(delta);
-                          });
-            }
-        for (const auto& [row, entry] : axes) {
-            std::vector<float> weights;
-            for (const Affine& map : maps)
-                weights.push_back(static_cast<float>((moved(map, node.centre) - node.centre).*entry));
-            Vec3 unit;
-            unit.*entry = 1;
-            add_entry(node, fmt::format("{} {}", node.name, row), std::move(weights),
-                      [&](std::uint32_t) { return to_float(unit); });
-        }
+            for (std::size_t row = 0; row < 3; ++row) add_matrix_entry(node, maps, row, column);
+        for (std::size_t row = 0; row < 3; ++row) add_shift_entry(node, maps, row);
+    }
+
+    // A vertex moves along `row` by its distance from the centre along `column`.
+    void add_matrix_entry(const FatNode& node, const std::vector<Affine>& maps, std::size_t row, std::size_t column) {
+        const auto weight = [&](const Affine& map) {
+            return map.columns[column].*axes[row].entry - Affine{}.columns[column].*axes[row].entry;
+        };
+        add_entry(node, fmt::format("{} {}{}", node.name, axes[row].name, axes[column].name), weights_of(maps, weight),
+                  [&](std::uint32_t v) {
+                      Vec3 delta;
+                      delta.*axes[row].entry = (to_double(mesh_.positions[v]) - node.centre).*axes[column].entry;
+                      return to_float(delta);
+                  });
+    }
+
+    void add_shift_entry(const FatNode& node, const std::vector<Affine>& maps, std::size_t row) {
+        const auto weight = [&](const Affine& map) { return (moved(map, node.centre) - node.centre).*axes[row].entry; };
+        Vec3 unit;
+        unit.*axes[row].entry = 1;
+        add_entry(node, fmt::format("{} {}", node.name, axes[row].name), weights_of(maps, weight),
+                  [&](std::uint32_t) { return to_float(unit); });
+    }
+
+    template <class Weight>
+    static std::vector<float> weights_of(const std::vector<Affine>& maps, const Weight& weight) {
+        std::vector<float> weights(maps.size());
+        std::transform(maps.begin(), maps.end(), weights.begin(),
+                       [&](const Affine& map) { return static_cast<float>(weight(map)); });
+        return weights;
     }
 
     template <class Delta>

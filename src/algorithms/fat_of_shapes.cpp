@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -31,7 +30,9 @@ namespace {
 struct Half {
     int fap = 0;
     bool above = true;
-    friend constexpr auto operator<=>(const Half&, const Half&) = default;
+    friend constexpr bool operator<(const Half& a, const Half& b) {
+        return std::pair(a.fap, a.above) < std::pair(b.fap, b.above);
+    }
 };
 
 // Those that a shape shows by its points; eyeballs and the head turn by themselves.

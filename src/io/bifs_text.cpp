@@ -125,7 +125,8 @@ public:
     }
 
 private:
-    // One thing where a value may stand: a number, a string, a node, a word, or brackets that mean nothing here.
+    // One thing where a value may stand: a number, a string, a node, a word, or brackets that mean nothing here, as
+    // those of a PROTO.
     void read_item(BifsField& field, std::size_t depth) {
         const Token token = tokens_.next();
         if (token.kind == Kind::end)
@@ -145,7 +146,6 @@ private:
             const std::string_view name = expect_word("a name after DEF").text;
             return read_node(field, expect_word("a node after DEF"), name, depth);
         }
-        if (token.text == "PROTO" || token.text == "EXTERNPROTO") return skip_prototype(depth);
         if (tokens_.peek().kind == Kind::open) return read_node(field, token, {}, depth);
         if (field.word.empty()) field.word = token.text;
     }
@@ -216,13 +216,6 @@ private:
                 fail_at_line(token.line, fmt::format("expected the other bracket, found {}", token.text));
             open.pop_back();
         }
-    }
-
-    // PROTO Name [ ... ] { ... }; of an EXTERNPROTO there is no body but an address.
-    void skip_prototype(std::size_t depth) {
-        expect_word("a name after PROTO");
-        while (tokens_.peek().kind == Kind::open_list || tokens_.peek().kind == Kind::open)
-            skip_balanced(tokens_.next(), depth);
     }
 
     struct Use {

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <numbers>
 
 #include "io/fdp_face.hpp"
 #include "io/text.hpp"
@@ -154,15 +153,38 @@ TEST(FdpText, ComesBackAsTheSameBytesFromTheSecondTripOn) {
     EXPECT_EQ(format_fdp_text(parsed(once)), once);
 }
 
-TEST(FdpText, ChangesNumbersOfTransformsByTheirLastDigitAtMost) {
+TEST(FdpText, ChangesNumbersOfTransformsByTheirLastDigitAtMostAndOnce) {
     Fdp before = small_face();
-    for (int i = 1; i < 200; ++i) {
-        const double angle = 1e-5 * std::numbers::pi * i;
-        before.fat.tables[2].transforms[0].angle = angle;
-        const Fdp once = parsed(format_fdp_text(before)), twice = parsed(format_fdp_text(once));
-        EXPECT_NEAR(once.fat.tables[2].transforms[0].angle, angle, 3e-16 * angle);
-        EXPECT_EQ(once.fat.tables[2].transforms[0].angle, twice.fat.tables[2].transforms[0].angle);
+    std::vector<FaceDefTransform>& turns = before.fat.tables[2].transforms;
+    for (int i = 1; i < 5000; ++i) {
+        turns.push_back(turns.front());
+        turns.back().angle = 1e-5 * std::sqrt(i);
     }
+    const Fdp once = parsed(format_fdp_text(before)), twice = parsed(format_fdp_text(once));
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        const double angle = once.fat.tables[2].transforms.at(i).angle;
+        EXPECT_NEAR(angle, turns[i].angle, 3e-16 * angle);
+        EXPECT_EQ(angle, twice.fat.tables[2].transforms.at(i).angle);
+    }
+}
+
+// Of every size, and with a unit that no number of them is a multiple of.
+TEST(FdpText, KeepsAnyDisplacementBitForBit) {
+    Fdp before = small_face();
+    FaceDefMesh& mesh = before.fat.tables[1].meshes[0];
+    mesh.borders = {0};
+    mesh.vertices = {3};
+    mesh.displacements.clear();
+    std::uint32_t bits = 1;
+    for (int i = 0; i < 20000; ++i) {
+        mesh.borders.push_back(i + 1);
+        bits = 1664525 * bits + 1013904223;
+        const float sign = bits >> 31U != 0 ? -1 : 1;
+        const auto size =
+            std::ldexp(1 + static_cast<float>(bits & 0x7fffffU) / 0x800000, static_cast<int>(bits >> 23U & 63U) - 40);
+        mesh.displacements.push_back({sign * size, size, 1 / size});
+    }
+    EXPECT_EQ(parsed(format_fdp_text(before)).fat.tables[1].meshes[0].displacements, mesh.displacements);
 }
 
 TEST(FdpText, HoldsUnitsAloneOrPointsAlone) {
