@@ -79,16 +79,9 @@ void append_vector(std::string& text, const Vec3& v) {
     append_number(text, v.z);
 }
 
-// A double is not always a product of a unit and another one; this is the nearest.
-double in_units(double number, double unit) {
-    const double quotient = number / unit;
-    for (const double near : {quotient, std::nextafter(quotient, -HUGE_VAL), std::nextafter(quotient, HUGE_VAL)})
-        if (near * unit == number) return near;
-    return quotient;
-}
-
+// A double is not always a product of a unit and another one; the quotient gives the nearest that is, and itself again.
 Vec3 in_units(const Vec3& v, double unit) {
-    return {in_units(v.x, unit), in_units(v.y, unit), in_units(v.z, unit)};
+    return {v.x / unit, v.y / unit, v.z / unit};
 }
 
 std::string escaped(std::string_view text) {
@@ -300,7 +293,7 @@ private:
             begin(2, "rotationDef");
             append_vector(text_, transform.axis);
             text_ += ' ';
-            append_number(text_, in_units(transform.angle, unit_length(fdp_.fapu, FapUnit::angle)));
+            append_number(text_, transform.angle / unit_length(fdp_.fapu, FapUnit::angle));
         } else if (transform.field == TransformField::scale) {
             begin(3, "scaleDef");
             append_vector(text_, in_units(transform.scale, unit(fap)));
