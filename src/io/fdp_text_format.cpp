@@ -104,7 +104,8 @@ public:
     std::string write() {
         text_ = "# MPEG-4 face definition as BIFS text, by mien\nGroup {\n  children [\n";
         add_world();
-        if (!fdp_.points.empty() || vertex_count(fdp_.mesh) > 0) add_face();
+        if (has_units_only()) return std::move(text_) + "  ]\n}\n";
+        add_face();
         return std::move(text_) + "  ]\n}\n";
     }
 
@@ -116,11 +117,19 @@ private:
         return unique;
     }
 
+    [[nodiscard]] bool has_units() const {
+        return std::any_of(named_units.begin(), named_units.end(),
+                           [&](const NamedUnit& u) { return fdp_.fapu.*(u.distance) > 0; });
+    }
+
+    [[nodiscard]] bool has_units_only() const {
+        const TreeNode& scene = tree_.nodes.back();
+        return has_units() && fdp_.points.empty() && scene.shapes.empty() && scene.nodes.empty();
+    }
+
     void add_world() {
         text_ += "    WorldInfo {\n      title \"Face definition\"\n      info [";
-        const bool known = std::any_of(named_units.begin(), named_units.end(),
-                                       [&](const NamedUnit& u) { return fdp_.fapu.*(u.distance) > 0; });
-        if (known) {
+        if (has_units()) {
             text_ += " \"FAPU";
             for (const NamedUnit& unit : named_units) {
                 text_ += fmt::format(" {} ", unit.name);
@@ -135,9 +144,9 @@ private:
     void add_face() {
         text_ += "    Face {\n      fdp FDP {\n";
         if (!fdp_.points.empty()) add_points();
-        if (vertex_count(fdp_.mesh) > 0) {
+        if (const TreeNode& scene = tree_.nodes.back(); !scene.shapes.empty() || !scene.nodes.empty()) {
             text_ += "        faceSceneGraph [\n";
-            add_node(tree_.nodes.back(), "          ");
+            add_node(scene, "          ");
             text_ += "        ]\n";
         }
         if (!fdp_.fat.tables.empty()) {

@@ -196,6 +196,14 @@ TEST(FdpText, HoldsUnitsAloneOrPointsAlone) {
     EXPECT_EQ(parsed(format_fdp_text(points)).points.size(), 3U);
 }
 
+TEST(FdpText, ReadsItsOwnNothing) {
+    EXPECT_TRUE(parsed(format_fdp_text({})).points.empty());
+    Fdp fdp;
+    fdp.fapu.mns = 1;
+    fdp.fat.tables = {{3, 0, {{{0, 1}, {}, {}}}, {}}};
+    EXPECT_TRUE(parsed(format_fdp_text(fdp)).fat == fdp.fat);
+}
+
 TEST(FdpText, RefusesNodesThatNoTreeOfShapesCanHold) {
     const auto refused_with = [](std::vector<std::uint32_t> vertices) {
         Fdp fdp = small_face();
