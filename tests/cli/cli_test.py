@@ -13,7 +13,8 @@ import program
 from program import HEAD, MAP, POINTS, SHARED, TAKE, run
 
 ROWS = 24
-VERBS = ("animate", "inspect", "points", "rig", "retarget", "deform", "faps", "play", "encode", "decode", "morph")
+VERBS = ("animate", "inspect", "points", "rig", "retarget", "deform", "faps", "play", "encode", "decode", "morph",
+         "fat")
 
 
 class CommandLine(program.ProgramTest):

@@ -12,9 +12,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "io/fdp_face.hpp"
 #include "io/text.hpp"
 
 #include "mien/error.hpp"
+#include "mien/io/read.hpp"
 
 namespace mien {
 namespace {
@@ -173,6 +175,28 @@ TEST_F(Write, the_extension_chooses_the_format_and_others_are_refused) {
     EXPECT_EQ(kind_of([&] { write(take, folder_ / "a.mdd"); }), Error::Kind::input);
     EXPECT_EQ(kind_of([&] { write(sequence(2), folder_ / "a.trk"); }), Error::Kind::input);
     EXPECT_EQ(entries(), 3U);
+}
+
+TEST_F(Write, a_face_definition_is_whole_or_its_points_or_its_units_by_its_extension) {
+    const Fdp fdp = small_face();
+    const auto written = [&](const std::string& name) {
+        write(fdp, folder_ / name);
+        return read_fdp(folder_ / name);
+    };
+    for (const char* whole : {"a.fat", "a.bt", "a.json"}) {
+        const Fdp read = written(whole);
+        EXPECT_TRUE(read.fat == fdp.fat) << whole;
+        EXPECT_EQ(read.mesh.positions, fdp.mesh.positions);
+        EXPECT_EQ(read.points.size(), 3U);
+    }
+    const Fdp points = written("a.fdp"), units = written("a.fapu");
+    EXPECT_EQ(points.points.size(), 3U);
+    EXPECT_TRUE(points.fat.tables.empty());
+    EXPECT_TRUE(units.points.empty());
+    EXPECT_EQ(units.fapu.mns, fdp.fapu.mns);
+    EXPECT_THAT([&] { write(fdp, folder_ / "a.obj"); }, testing::ThrowsMessage<Error>(testing::HasSubstr(".fat")));
+    EXPECT_THAT([&] { static_cast<void>(read_fdp(folder_ / "a.obj")); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr(".fat")));
 }
 
 TEST_F(Write, a_folder_holds_one_obj_a_row_and_tells_its_progress) {
