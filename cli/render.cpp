@@ -174,8 +174,7 @@ void add_render(CLI::App& app, Call& call) {
                  [&call, flags] { render(call, *flags); });
     verb->add_option("input", flags->input,
                      "a head (.glb .gltf .fbx .obj .off .ply), moving or not, a rig file, a take or a face animation "
-                     "table (.fat .bt "
-                     ".json)")
+                     "table (.fat .bt .json)")
         ->required();
     verb->add_option("--take", flags->take,
                      "for a rig file: the motion of its own points, as mien retarget writes it; for a table: its "

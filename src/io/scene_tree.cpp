@@ -101,7 +101,8 @@ SceneTree scene_tree(const Mesh& mesh, const Fat& fat) {
         if (is_new) shapes.push_back({parts[f] == none ? "head" : mesh.parts[parts[f]].name, {}});
         shapes[found->second].faces.push_back(f);
     }
-    if (face_count(mesh) == 0 && (vertex_count(mesh) > 0 || !fat.tables.empty())) tree.nodes[scene].shapes.push_back({"head", {}});
+    if (face_count(mesh) == 0 && (vertex_count(mesh) > 0 || !fat.tables.empty()))
+        tree.nodes[scene].shapes.push_back({"head", {}});
     return tree;
 }
 
