@@ -205,7 +205,7 @@ class RigAndPerform(AddOnTest):
         self.assertEqual((self.out / "mien" / "head" / "rig.glb").read_bytes(), by_groups)
 
 
-    def test_a_bone_moves_the_skin_as_its_point_does_on_top_of_a_performance(self):
+    def test_a_bone_moves_the_skin_as_that_of_the_rig_file_does_on_top_of_a_performance(self):
         head = self.load()
         for thing in meshes():
             thing.location = (1, 2, 3)
@@ -219,21 +219,19 @@ class RigAndPerform(AddOnTest):
         vertex = json.loads(POINTS.read_text(encoding="utf-8"))["points"]["8.4"]["vertex"]
         self.assertLess(numpy.abs(evaluated_at_rest(head)[vertex] - [place.x, place.z, -place.y]).max(), ROUNDING)
 
-        rig, take = self.out / "mien" / "head" / "rig.glb", self.out / "one.csv"
-        points = gltf(rig)["extensions"]["MIEN_rig"]["points"]
-        rows = [[second, *(value + 0.01 * second * (point["id"] == "8.4" and axis == 0)
-                           for point in points for axis, value in enumerate(point["position"]))] for second in (0, 1)]
-        names = ["time", *(f"{point['id']}.{axis}" for point in points for axis in "xyz")]
-        take.write_text("\n".join(",".join(map(str, row)) for row in (names, *rows)) + "\n", encoding="utf-8")
-        allowed = json.loads(run("deform", rig, take, "-o", self.out / "one.glb", "--json").stdout)["influence_cut"]["max_error"]
-        write("deform", rig, take, "-o", self.out / "one.mdd")
-        _times, exact = read_mdd(self.out / "one.mdd")
-        bone.location = bone.bone.matrix_local.to_3x3().inverted() @ mathutils.Vector((0.01, 0, 0))
+        def pose(bone):
+            bone.location = bone.bone.matrix_local.to_3x3().inverted() @ mathutils.Vector((0.01, 0, 0))
+
+        pose(bone)
         moved = evaluated(head, 60) - before["head"]
-        wanted = (exact[1] - exact[0])[:len(moved)]
-        self.assertGreater(wanted[vertex, 0], 0.0099)
-        self.assertLess(numpy.linalg.norm(moved - wanted, axis=1).max(), allowed + 10 * ROUNDING * size(head))
-        self.assertLess(allowed, 0.004)
+        self.assertGreater(moved[vertex, 0], 0.0099)
+        own = set(bpy.data.objects)
+        bpy.ops.import_scene.gltf(filepath=str(self.out / "mien" / "head" / "rig.glb"))
+        judge = {thing.type: thing for thing in set(bpy.data.objects) - own if thing.type == "ARMATURE" or thing.name == "head.001"}
+        still = evaluated(judge["MESH"], 60)
+        pose(judge["ARMATURE"].pose.bones["8.4"])
+        wanted = evaluated(judge["MESH"], 60) - still
+        self.assertLess(numpy.abs(moved - wanted).max(), ROUNDING * size(head))
 
 
 class Extract(AddOnTest):
@@ -278,7 +276,7 @@ class Extract(AddOnTest):
         away = numpy.linalg.norm(self.played() - before, axis=2) / eye_distance
         self.assertLess(away.max(), report["replay"]["max"] * 1.001 + ROUNDING * 10)
         self.assertLess(away.mean(), report["replay"]["mean"] * 1.5 + ROUNDING * 10)
-        self.assertGreater(numpy.abs(before[-1] - before[0]).max() / eye_distance, 0.1, "nothing moves, which shows nothing")
+        self.assertGreater(numpy.abs(before[-1] - before[0]).max() / eye_distance, 0.05, "nothing moves, which shows nothing")
 
     def test_an_animated_head_replays_what_was_extracted_within_the_error_that_is_told(self):
         head = self.animated_head()
@@ -310,7 +308,7 @@ class Extract(AddOnTest):
         self.assertIn("plays face.fap by its table, to frame 40", self.told().message)
         self.assertEqual([modifier.name for modifier in head.modifiers if modifier.type == "MESH_CACHE"], ["mien"])
         self.assertLess(numpy.abs(evaluated(head, 30) - replayed).max() / eye_distance, 0.001)
-        self.assertGreater(numpy.abs(replayed - evaluated_at_rest(head)).max() / eye_distance, 0.1)
+        self.assertGreater(numpy.abs(replayed - evaluated_at_rest(head)).max() / eye_distance, 0.05)
         before = self.played()
         self.assertEqual(bpy.ops.mien.extract(), {"FINISHED"})  # what is extracted now is the performance
         self.assert_replays(before, eye_distance)
