@@ -39,7 +39,7 @@ std::vector<Interval> finest(const FapColumns& columns) {
     for (std::size_t k = 0; k < columns.faps.size(); ++k) {
         const auto values = columns.values.col(static_cast<Index>(k));
         const double low = values.minCoeff(), high = values.maxCoeff();
-        const double half_low = std::round(low / 2), half_high = std::round(high / 2);
+        const double half_low = std::trunc(low / 2), half_high = std::trunc(high / 2);
         if (low < 0) {
             if (half_low < 0) intervals.push_back({k, -infinite, half_low});
             intervals.push_back({k, half_low < 0 ? half_low : -infinite, 0});

@@ -133,6 +133,20 @@ TEST(LearnFat, AParameterThatBendsAtRestIsBentThere) {
     EXPECT_LT(distance(down[brow], -0.25 * up[brow]), 0.02 * length(up[brow]));
 }
 
+// Half of a single unit is no border.
+TEST(LearnFat, AParameterThatHardlyGoesBelowRestHasBordersThatAscend) {
+    const Head head;
+    FapStream stream = animated::all_at_once();
+    for (FapFrame& frame : stream.frames) {
+        std::int32_t& brow = frame.value[fap_index(31)];
+        brow = std::max(brow, -1);
+    }
+    const auto faster_above = [](int fap, double value) { return fap == 31 && value > 125 ? 3 * value - 250 : value; };
+    const LearntFat learnt = learn(head, stream, Reading::remedied, faster_above);
+    EXPECT_EQ(about(learnt, 31).intervals, 3U);
+    EXPECT_NO_THROW(deform(learnt.fat, head.face.mesh, stream));
+}
+
 TEST(LearnFat, EyeballsAndTheHeadTurnAsParts) {
     const Head head;
     const FapStream stream = animated::all_at_once(60);
@@ -190,6 +204,41 @@ TEST(LearnFat, TeethThatHangOnTheJawTurnAboutItsHinge) {
     }
 }
 
+TEST(LearnFat, AHeadThatOnlyTurnsHasATableOfItsTurnsAlone) {
+    const Head head;
+    FapStream rest = animated::all_at_once(20);
+    for (FapFrame& frame : rest.frames) frame.value.fill(0);
+    const UprightSequence found =
+        upright(animated::play(head.face, head.fapu, rest, animated::poses(20)), head.face.points);
+    for (const Reading reading : {Reading::remedied, Reading::paper}) {
+        const LearntFat learnt = learn_fat(found, head.fapu, rest, reading);
+        ASSERT_EQ(learnt.fat.nodes.empty(), false);
+        EXPECT_EQ(learnt.fat.nodes.back().name, "head");
+        for (const FaceDefTables& table : learnt.fat.tables) {
+            EXPECT_TRUE(table.meshes.empty());
+            EXPECT_FALSE(table.transforms.empty());
+        }
+        EXPECT_TRUE(learnt.parameters.empty());
+    }
+}
+
+// A parameter that is sent while nothing moves, and a head that moves without any.
+TEST(LearnFat, AnAnimationAndAStreamThatHaveNothingToDoWithEachOtherGiveAnEmptyTable) {
+    const Head head;
+    const FapStream stream = animated::all_at_once(20);
+    FapStream rest = stream;
+    for (FapFrame& frame : rest.frames) frame.value.fill(0);
+    const LearntFat still =
+        learn_fat(animated::still(head.face, animated::play(head.face, head.fapu, rest)), head.fapu, stream);
+    const LearntFat silent =
+        learn_fat(animated::still(head.face, animated::play(head.face, head.fapu, stream)), head.fapu, rest);
+    for (const LearntFat* learnt : {&still, &silent})
+        for (const FaceDefTables& table : learnt->fat.tables) EXPECT_TRUE(table.meshes.empty());
+    const std::uint32_t brow = head.face.points[*find_point(head.face.points, "4.1")].vertex;
+    EXPECT_DOUBLE_EQ(silent.beyond[brow], silent.motion[brow]) << "nothing of it can be said";
+    EXPECT_GT(silent.motion[brow], 0);
+}
+
 TEST(LearnFat, WhatNoParameterFollowsIsNamed) {
     const Head head;
     const FapStream stream = animated::all_at_once();
@@ -215,6 +264,17 @@ TEST(LearnFat, AsWrittenParametersThatActAloneGiveTheirFields) {
             EXPECT_LT(found.error, 1e-3) << fap_info(fap).name;
             EXPECT_EQ(found.outside, 0) << fap_info(fap).name;
         }
+}
+
+TEST(LearnFat, AsWrittenBothWaysFromRestAreKeptApart) {
+    const Head head;
+    const auto half_below = [](int, double value) { return value < 0 ? 0.5 * value : value; };
+    const LearntFat learnt = learn(head, animated::one_by_one(), Reading::paper, half_below);
+    for (const int fap : animated::moving_faps()) {
+        const std::vector<Vec3> up = played(head, learnt.fat, fap, 100), down = played(head, learnt.fat, fap, -100);
+        const std::uint32_t v = head.face.points[*find_point(head.face.points, fap_info(fap).point)].vertex;
+        EXPECT_LT(distance(down[v], -0.5 * up[v]), 1e-3 * length(up[v])) << fap_info(fap).name;
+    }
 }
 
 TEST(LearnFat, AsWrittenAVertexDependsOnEveryParameterThatIsNeverActiveWithoutIt) {

@@ -155,6 +155,8 @@ TEST(UprightSequence, ASequenceIsShownAtAnotherRateByItsNearestRows) {
     std::vector<Vec3f> row(4);
     halved.positions(1, row);
     EXPECT_EQ(row[0].x, 2);
+    at_rate(sequence, 3).positions(1, row);
+    EXPECT_EQ(row[0].x, 3) << "0.3 is nearer to a third than 0.4";
     EXPECT_THAT(refusal([&] { at_rate(sequence, 0); }), HasSubstr("rate above 0"));
 }
 

@@ -52,6 +52,13 @@ TEST(BakedSize, ATrackCostsItsTargetsOnce) {
     const BakedSize size = baked_size(sequence, track);
     EXPECT_LT(size.morph_track, size.morph_per_row);
     EXPECT_GT(size.morph_track, baked_size(sequence, {}).morph_track);
+    MorphTrack one;
+    one.targets = track.targets;
+    MorphTrack two = one;
+    two.targets.push_back(one.targets.front());
+    const std::size_t none = baked_size(sequence, {}).morph_track, single = baked_size(sequence, one).morph_track;
+    EXPECT_GT(single, none);
+    EXPECT_EQ(baked_size(sequence, two).morph_track - none, 2 * (single - none));
 }
 
 TEST(BakedSize, APositionThatIsNoNumberIsRefused) {

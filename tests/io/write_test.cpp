@@ -204,5 +204,30 @@ TEST_F(Write, only_a_folder_of_frames_is_replaced) {
     EXPECT_EQ(entries(), 2U);
 }
 
+const std::vector<NamedFile> two_files{{"a.txt", "one"}, {"b.bin", std::string("t\0o", 3)}};
+
+TEST_F(Write, a_folder_of_named_files_holds_their_bytes_and_nothing_else) {
+    write_folder(two_files, folder_ / "made");
+    EXPECT_EQ(content(folder_ / "made/a.txt"), "one");
+    EXPECT_EQ(content(folder_ / "made/b.bin"), std::string("t\0o", 3));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "made"), fs::directory_iterator()), 2);
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(Write, only_a_folder_of_the_same_names_is_replaced) {
+    write_folder(two_files, folder_ / "made");
+    EXPECT_EQ(kind_of([&] { write_folder(two_files, folder_ / "made"); }), Error::Kind::access);
+    WriteOptions options;
+    options.overwrite = true;
+    write_folder(std::vector<NamedFile>{{"a.txt", "new"}, {"b.bin", ""}}, folder_ / "made", options);
+    EXPECT_EQ(content(folder_ / "made/a.txt"), "new");
+    write_file(folder_ / "made/letter", {}, {});
+    EXPECT_EQ(kind_of([&] { write_folder(two_files, folder_ / "made", options); }), Error::Kind::access);
+    EXPECT_EQ(content(folder_ / "made/a.txt"), "new");
+    write_file(folder_ / "file", {}, {});
+    EXPECT_EQ(kind_of([&] { write_folder(two_files, folder_ / "file", options); }), Error::Kind::access);
+    EXPECT_EQ(entries(), 2U) << "nothing is left beside them";
+}
+
 }  // namespace
 }  // namespace mien

@@ -46,8 +46,8 @@ struct LearntFat {
 /// vertex can do without are dropped. A parameter is bent (at 0 and halfway) where that pays. Eyeballs of their own
 /// and the head follow theirs as FaceDefTransform: nodes "left eye", "right eye" and "head", the last.
 ///
-/// `stream`: of this animation; frame times are counted from its first row. `fapu`: of its neutral head. Throws Error if
-/// the stream has no frame or no time of it lies in the animation.
+/// `stream`: of this animation; frame times are counted from its first row. `fapu`: of its neutral head. Throws Error
+/// if the stream has no frame or no time of it lies in the animation.
 LearntFat learn_fat(const UprightSequence& upright, const Fapu& fapu, const FapStream& stream,
                     Reading reading = Reading::remedied);
 
