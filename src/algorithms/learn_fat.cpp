@@ -166,13 +166,10 @@ Course course_of(const FapColumns& columns, const Model& model, std::size_t colu
     for (std::size_t i = 0; i < model.intervals.size(); ++i) {
         const Interval& interval = model.intervals[i];
         if (interval.column != column) continue;
+        course.intervals.push_back(static_cast<Index>(i));
         if (course.borders.empty())
             course.borders.push_back(static_cast<std::int32_t>(std::max<double>(interval.low, low)));
-        // An interval that lies beyond the values, or within one unit, has no room.
-        const auto border = static_cast<std::int32_t>(std::min<double>(interval.high, high));
-        if (border <= course.borders.back()) continue;
-        course.intervals.push_back(static_cast<Index>(i));
-        course.borders.push_back(border);
+        course.borders.push_back(static_cast<std::int32_t>(std::min<double>(interval.high, high)));
     }
     // Plainly linear: one interval that goes on to the other side of 0.
     if (course.intervals.size() == 1) course.borders = -low > high ? std::vector{low, 0} : std::vector{0, high};
