@@ -14,7 +14,6 @@ namespace mien {
 namespace {
 
 using picture_text::jpeg;
-using picture_text::JpegKind;
 using testing::HasSubstr;
 
 // Every pixel of the picture within one of this colour, which is as exact as the standard asks decoders to be.

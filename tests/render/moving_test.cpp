@@ -34,7 +34,7 @@ Rig wild_rig(const std::vector<Vec3f>& rest, std::uint16_t points, std::uint16_t
     rig.row_starts = {0};
     for (std::size_t v = 0; v < rest.size(); ++v) {
         for (std::uint16_t i = 0; i < influences; ++i) {
-            rig.row_points.push_back(static_cast<std::uint16_t>((v + i * 3U) % points));
+            rig.row_points.push_back(static_cast<std::uint16_t>((v + i * std::size_t{3}) % points));
             Vec3f w = number.vec();
             if (v % 3 == 0) w = {w.x, w.x, w.x};
             if (v % 5 == 0) w.z = 0;
