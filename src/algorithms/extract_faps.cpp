@@ -85,6 +85,7 @@ std::vector<MovingEyeball> moving_eyeballs(const UprightSequence& upright) {
         radii.push_back(found.ball.radius);
     }
     std::vector<std::vector<Vec3>> rest;
+    rest.reserve(eyeballs.size());
     for (const MovingEyeball& e : eyeballs) rest.push_back(seen_from(e.centre, face.mesh.positions, e.vertices));
     std::vector<bool> round(eyeballs.size(), true);
     std::vector<Vec3f> row(vertex_count(face.mesh));
