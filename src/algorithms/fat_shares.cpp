@@ -240,7 +240,7 @@ Eigen::VectorXd left_by(const Model& model, const Eigen::MatrixXd& shares, const
 }
 
 Eigen::VectorXd beyond_of(const Model& model, const Eigen::VectorXd& motion) {
-    if (model.gram.rows() == 0) return motion;
+    if (model.right.size() == 0) return motion;
     Eigen::MatrixXd gram = model.gram;
     gram.diagonal().array() += rounding;
     const Eigen::MatrixXd best = gram.ldlt().solve(model.right);
