@@ -104,7 +104,7 @@ inline MeshSequence play(
     sequence.positions = [data, bend](std::size_t r, std::span<Vec3f> positions) {
         const FapFrame& frame = data->frames[r];
         const auto angle = [&](int fap) { return 1e-5 * frame.value[fap_index(fap)]; };
-        const std::size_t balls = (positions.size() - (columns + 1) * (rows + 1) - 1) / 2;
+        const std::size_t balls = (positions.size() - std::size_t{columns + 1} * (rows + 1) - 1) / 2;
         for (std::size_t v = 0; v < positions.size(); ++v) {
             Vec3 p = to_double(data->face.mesh.positions[v]);
             for (const auto& [fap, moves] : data->fields) p += bend(fap, frame.value[fap_index(fap)]) * moves[v];
