@@ -20,17 +20,9 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
-from program import HEAD, MAP, POINTS, SHARED, TAKE, run
+from program import HEAD, MAP, POINTS, SHARED, TAKE, read_mdd, run
 
 ROUNDING = 1e-5
-
-
-def read_mdd(path):
-    data = path.read_bytes()
-    rows, vertices = struct.unpack(">ii", data[:8])
-    values = array.array("f", data[8:])
-    values.byteswap()
-    return values[:rows], [values[rows + 3 * vertices * row:][:3 * vertices] for row in range(rows)]
 
 
 def read_glb(path):

@@ -6,7 +6,7 @@ import re
 import unittest
 
 import program
-from program import HEAD, MAP, POINTS, SHARED, TAKE, run
+from program import HEAD, MAP, POINTS, SHARED, TAKE, fap_text, run
 
 FILTERS = ("mirror", "retime", "scale", "join", "blend", "statistics")
 
@@ -22,15 +22,6 @@ def read(path):
     return frames
 
 
-def text(frames, rate=25):
-    """A text file that sends {fap: value} in every frame; FAPs 3 and up."""
-    lines = [f"2.1 test {rate} {len(frames)}"]
-    for number, values in enumerate(frames):
-        lines.append(" ".join("1" if fap in values else "0" for fap in range(1, 69)))
-        lines.append(" ".join(map(str, [number, *(values[fap] for fap in sorted(values))])))
-    return "\n".join(lines) + "\n"
-
-
 class FaceAnimation(program.ProgramTest):
     @classmethod
     def setUpClass(cls):
@@ -38,14 +29,7 @@ class FaceAnimation(program.ProgramTest):
         cls.rig = cls.work / "rig.glb"
         assert run("rig", HEAD, "--points", POINTS, "-o", cls.rig).returncode == 0
         cls.smile = cls.work / "smile.fap"
-        cls.smile.write_text(text([{53: 10 * i, 3: 5 * i} for i in range(20)]), encoding="utf-8")
-
-    def refused(self, status, words, *arguments):
-        result = run(*arguments)
-        self.assertEqual(result.returncode, status, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
-        self.assertEqual(list(self.out.iterdir()), [])
+        cls.smile.write_text(fap_text([{53: 10 * i, 3: 5 * i} for i in range(20)]), encoding="utf-8")
 
     def test_markers_become_parameters_in_the_performers_own_units(self):
         report = self.report("faps", self.take, "--points", MAP, "-o", self.out / "a.fap")
@@ -66,7 +50,7 @@ class FaceAnimation(program.ProgramTest):
 
     def test_a_bit_rate_is_kept_to(self):
         busy = self.work / "busy.fap"
-        busy.write_text(text([{fap: 37 * i * fap % 401 for fap in range(51, 61)} for i in range(60)]), encoding="utf-8")
+        busy.write_text(fap_text([{fap: 37 * i * fap % 401 for fap in range(51, 61)} for i in range(60)]), encoding="utf-8")
         fine = self.report("encode", busy, "-o", self.out / "a.fba")["bitstream"]
         asked = 0.8 * fine["kilobits_per_second"]
         coarse = self.report("encode", busy, "-o", self.out / "b.fba", "--bitrate", asked)["bitstream"]
@@ -95,8 +79,8 @@ class FaceAnimation(program.ProgramTest):
             report = self.report("play", self.rig, stream, *arguments, "-o", self.out / f"{name}.mdd")
             return report, (self.out / f"{name}.mdd").read_bytes()
         jaw, both = self.work / "jaw.fap", self.work / "both.fap"
-        jaw.write_text(text([{3: 10 * i} for i in range(9)]), encoding="utf-8")
-        both.write_text(text([{3: 10 * i, 5: -5 * i} for i in range(9)]), encoding="utf-8")
+        jaw.write_text(fap_text([{3: 10 * i} for i in range(9)]), encoding="utf-8")
+        both.write_text(fap_text([{3: 10 * i, 5: -5 * i} for i in range(9)]), encoding="utf-8")
         table = self.work / "table.json"
         link = {"from": [3], "to": [{"fap": 5, "numerator": [{"coefficient": -0.5, "exponents": [1]}]}]}
         table.write_text(json.dumps({"links": [link]}), encoding="utf-8")
@@ -108,16 +92,16 @@ class FaceAnimation(program.ProgramTest):
             (self.out / f"{name}.mdd").unlink()
         link["to"][0]["fap"] = 69
         table.write_text(json.dumps({"links": [link]}), encoding="utf-8")
-        self.refused(1, ["table.json", "/links/0/to/0/fap"], "play", self.rig, jaw, "--fit", table, "-o", self.out / "d.mdd")
+        self.refuses(1, ["table.json", "/links/0/to/0/fap"], "play", self.rig, jaw, "--fit", table, "-o", self.out / "d.mdd")
 
     def test_what_no_parameter_moves_is_refused(self):
         nothing = self.work / "nothing.fap"
         nothing.write_text("2.1 a 25 1\n" + " ".join(["0"] * 67 + ["x"]) + "\n0\n", encoding="utf-8")
-        self.refused(1, ["nothing.fap", "line 2"], "play", self.rig, nothing, "-o", self.out / "p.glb")
+        self.refuses(1, ["nothing.fap", "line 2"], "play", self.rig, nothing, "-o", self.out / "p.glb")
         bare = self.work / "bare.csv"
         bare.write_text("time,dimple.x,dimple.y,dimple.z,a.x,a.y,a.z\n0,1,2,3,4,5,6\n1,1,2,3,4,5,7\n", encoding="utf-8")
-        self.refused(1, ["bare.csv", "--map"], "faps", bare, "--head", "keep", "-o", self.out / "p.fap")
-        self.refused(2, [".fap"], "encode", self.smile, "-o", self.out / "p.mp4")
+        self.refuses(1, ["bare.csv", "--map"], "faps", bare, "--head", "keep", "-o", self.out / "p.fap")
+        self.refuses(2, [".fap"], "encode", self.smile, "-o", self.out / "p.mp4")
 
     def test_filters_do_what_they_say(self):
         def filtered(verb, *arguments):
@@ -132,13 +116,13 @@ class FaceAnimation(program.ProgramTest):
         self.assertEqual(scaled[4], {53: 20, 3: 40})
         self.assertEqual(len(filtered("join", self.smile, self.smile, self.smile)), 60)
         other = self.work / "other.fap"
-        other.write_text(text([{31: 100}] * 20), encoding="utf-8")
+        other.write_text(fap_text([{31: 100}] * 20), encoding="utf-8")
         self.assertEqual(filtered("blend", self.smile, other, "--share", 0.25)[4][31], 25)
         rows = {row["fap"]: row for row in self.report("fap", "statistics", self.smile)["statistics"]}
         self.assertEqual((rows[53]["low"], rows[53]["high"]), (0, max(frame[53] for frame in plain.values())))
 
     def test_a_part_that_is_none_is_refused(self):
-        self.refused(1, ["knee", "mouth"], "fap", "scale", self.smile, "--strength", "knee=2", "-o", self.out / "r.fap")
+        self.refuses(1, ["knee", "mouth"], "fap", "scale", self.smile, "--strength", "knee=2", "-o", self.out / "r.fap")
 
     def test_inspect_says_what_is_in_a_stream(self):
         self.assertEqual(self.report("inspect", self.smile)["faps"]["parameters"], 2)

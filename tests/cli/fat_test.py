@@ -5,16 +5,7 @@ import json
 import unittest
 
 import program
-from program import HEAD, POINTS, run
-
-
-def stream(frames):
-    """A text file that sends {fap: value} in every frame; FAPs 3 and up."""
-    lines = [f"2.1 test 25 {len(frames)}"]
-    for number, values in enumerate(frames):
-        lines.append(" ".join("1" if fap in values else "0" for fap in range(1, 69)))
-        lines.append(" ".join(map(str, [number, *(values[fap] for fap in sorted(values))])))
-    return "\n".join(lines) + "\n"
+from program import HEAD, POINTS, fap_text, run
 
 
 class FaceAnimationTables(program.ProgramTest):
@@ -28,14 +19,7 @@ class FaceAnimationTables(program.ProgramTest):
         assert made.returncode == 0, made.stderr
         cls.made = json.loads(made.stdout)
         cls.talk = cls.work / "talk.fap"
-        cls.talk.write_text(stream([{3: 60 * i, 23: 900 * i, 24: 900 * i, 49: 2000 * i} for i in range(12)]), encoding="utf-8")
-
-    def refused(self, status, words, *arguments):
-        result = run(*arguments)
-        self.assertEqual(result.returncode, status, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
-        self.assertEqual(list(self.out.iterdir()), [])
+        cls.talk.write_text(fap_text([{3: 60 * i, 23: 900 * i, 24: 900 * i, 49: 2000 * i} for i in range(12)]), encoding="utf-8")
 
     def test_a_rig_becomes_a_table_within_what_is_said(self):
         self.assertLess(self.made["parameters_alone"]["max_error_share_of_eye_distance"], 0.03)
@@ -90,12 +74,12 @@ class FaceAnimationTables(program.ProgramTest):
     def test_what_is_no_table_is_refused(self):
         broken = self.work / "broken.fat"
         broken.write_text("FDP { faceDefTables [\n FaceDefTables { fapID 99 } ] }", encoding="utf-8")
-        self.refused(1, ["broken.fat", "line 2", "found 99"], "play", broken, self.talk, "-o", self.out / "a.glb")
+        self.refuses(1, ["broken.fat", "line 2", "found 99"], "play", broken, self.talk, "-o", self.out / "a.glb")
         empty = self.work / "empty.fat"
         empty.write_text("FDP { }", encoding="utf-8")
-        self.refused(1, ["expected a face definition with a table"], "play", empty, self.talk, "-o", self.out / "a.glb")
-        self.refused(1, ["--shapes"], "fat", self.fat, "--shapes", self.rig, "-o", self.out / "a.fat")
-        self.refused(2, [".fat"], "fat", self.rig, "-o", self.out / "a.obj")
+        self.refuses(1, ["expected a face definition with a table"], "play", empty, self.talk, "-o", self.out / "a.glb")
+        self.refuses(1, ["--shapes"], "fat", self.fat, "--shapes", self.rig, "-o", self.out / "a.fat")
+        self.refuses(2, [".fat"], "fat", self.rig, "-o", self.out / "a.obj")
 
 
 if __name__ == "__main__":

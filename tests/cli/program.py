@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the mien authors
 """Calling the program from a test: where it is, the sample it works on, and heads and takes beside the project."""
+import array
 import json
 import os
 import pathlib
 import shutil
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -40,6 +42,24 @@ def some_rows(trc, rows):
     return "\n".join(kept) + "\n"
 
 
+def fap_text(frames, rate=25):
+    """A FAP text file that sends {fap: value} in every frame; FAPs 3 and up."""
+    lines = [f"2.1 test {rate} {len(frames)}"]
+    for number, values in enumerate(frames):
+        lines.append(" ".join("1" if fap in values else "0" for fap in range(1, 69)))
+        lines.append(" ".join(map(str, [number, *(values[fap] for fap in sorted(values))])))
+    return "\n".join(lines) + "\n"
+
+
+def read_mdd(path):
+    """Times and rows of a point cache; x, y, z of its vertices one after another."""
+    data = path.read_bytes()
+    rows, vertices = struct.unpack(">ii", data[:8])
+    values = array.array("f", data[8:])
+    values.byteswap()
+    return values[:rows], [values[rows + 3 * vertices * row:][:3 * vertices] for row in range(rows)]
+
+
 class ProgramTest(unittest.TestCase):
     """Has a folder `work` for the class with a short take in it, `rows` long, and one `out` for each test."""
     rows = 24
@@ -54,6 +74,14 @@ class ProgramTest(unittest.TestCase):
     def setUp(self):
         self.out = self.work / self.id().rsplit(".", 1)[-1]
         self.out.mkdir()
+
+    def refuses(self, status, words, *arguments):
+        """A call fails with this status and these words, and leaves nothing behind."""
+        result = run(*arguments)
+        self.assertEqual(result.returncode, status, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        self.assertEqual(list(self.out.iterdir()), [])
 
     def report(self, *arguments):
         """What a call that must succeed reports."""

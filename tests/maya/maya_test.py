@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / folder) for folder in ("maya", "python", "tests/cli", "tests/maya")]
 import program
 import stub
-from program import MAP, MIEN, SAMPLES, TAKE, run
+from program import MAP, MIEN, SAMPLES, TAKE, read_mdd, run
 
 sys.modules["maya"] = types.SimpleNamespace(cmds=types.SimpleNamespace(), mel=types.SimpleNamespace())
 import mien_maya
@@ -36,14 +36,6 @@ def read_obj(path):
         elif word == "f":
             groups[-1][2].append([int(corner.split("/")[0]) - first for corner in values])
     return groups
-
-
-def read_mdd(path):
-    data = path.read_bytes()
-    rows, vertices = struct.unpack(">ii", data[:8])
-    values = array.array("f", data[8:])
-    values.byteswap()
-    return values[:rows], [values[rows + 3 * vertices * row:][:3 * vertices] for row in range(rows)]
 
 
 def blocks(data):
