@@ -103,7 +103,8 @@ void play(Call& call, const Play& flags) {
     const Face face{file.mesh, file.rig.points};
     const Fapu fapu = measure_fapu(face);
     const FapInterpolation fit = load_fit(flags.fit, call.report);
-    const FapStream stream = resolve_faps(load_faps(flags.faps, call.report), standard_poses(), fit);
+    const FapStream stream =
+        resolve_faps(load_faps(flags.faps, call.report), standard_poses(), fit, carried_contours(fapu.points));
     const std::vector<std::string> points = told_points(stream, fapu);
     if (points.empty())
         throw Error(flags.faps.string() + ": expected parameters that move a point of this rig, found none");

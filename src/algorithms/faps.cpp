@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -87,6 +88,30 @@ bool is_of_eye(const Fap& fap) {
     return fap.point == "3.5" || fap.point == "3.6";
 }
 
+bool lies_on_tongue(std::string_view point) {
+    return point.starts_with("6.");
+}
+
+bool is_of_tongue(const Fap& fap) {
+    return lies_on_tongue(fap.point);
+}
+
+double amount(const FapFrame& frame, const Fapu& fapu, int fap) {
+    return frame.value[fap_index(fap)] * unit_length(fapu, fap_info(fap).unit);
+}
+
+Vec3 shift(const FapFrame& frame, const Fapu& fapu, std::span<const int> shifts) {
+    Vec3 sum;
+    for (const int fap : shifts) sum += along(fap_info(fap).axis, fap_info(fap).sign * amount(frame, fapu, fap));
+    return sum;
+}
+
+// The tongue lies in the jaw and goes with it; its own parameters add to that.
+Vec3 jaw_shift(const FapFrame& frame, const Fapu& fapu) {
+    constexpr std::array jaw{3, 14, 15};
+    return shift(frame, fapu, jaw);
+}
+
 struct EyePose {
     double yaw = 0, pitch = 0, thrust = 0;
 };
@@ -145,11 +170,20 @@ private:
         return row(take_, row_number)[*c];
     }
 
+    // What the jaw's parameters, which come first, make of the tongue; nothing is known of it while the jaw is lost.
+    std::optional<Vec3> carried(const FapFrame& frame, std::size_t row_number, const Fap& fap) const {
+        if (!is_of_tongue(fap)) return Vec3{};
+        if (find_column(take_, "2.1") && !sample(row_number, "2.1")) return std::nullopt;
+        return jaw_shift(frame, fapu_);
+    }
+
     void add_shift(FapFrame& frame, std::size_t row_number, int number) const {
         const Fap& fap = fap_info(number);
         const auto from = rest(fap.point), to = sample(row_number, fap.point);
         const double unit = unit_length(fapu_, fap.unit);
-        if (from && to && unit > 0) send(frame, number, fap.sign * coordinate(*to - *from, fap.axis) / unit);
+        const auto start = carried(frame, row_number, fap);
+        if (from && to && start && unit > 0)
+            send(frame, number, fap.sign * coordinate(*to - *from - *start, fap.axis) / unit);
     }
 
     void add_eye(FapFrame& frame, std::size_t row_number, const EyeFaps& eye) const {
@@ -170,7 +204,7 @@ private:
         for (const auto& [id, side] : {std::pair("6.3", 1.0), std::pair("6.4", -1.0)}) {
             const auto from = rest(id), to = sample(row_number, id);
             if (!body || !from || !to) continue;
-            const Vec3 before = *from - *body, now = *to - body_now.value_or(*body);
+            const Vec3 before = *from - *body, now = *to - body_now.value_or(*body + jaw_shift(frame, fapu_));
             const double turn = std::atan2(now.y, side * now.x) - std::atan2(before.y, side * before.x);
             sum += std::remainder(turn, 2 * std::numbers::pi);
             ++count;
@@ -227,10 +261,6 @@ FapStream to_faps(const Take& take, const Fapu& fapu, const ToFapsOptions& optio
 
 namespace {
 
-double amount(const FapFrame& frame, const Fapu& fapu, int fap) {
-    return frame.value[fap_index(fap)] * unit_length(fapu, fap_info(fap).unit);
-}
-
 // Which parameters move a point of the face; numbers from 1.
 std::vector<std::vector<int>> shifts_by_point(const Fapu& fapu) {
     std::vector<std::vector<int>> shifts(fapu.points.size());
@@ -239,12 +269,6 @@ std::vector<std::vector<int>> shifts_by_point(const Fapu& fapu) {
             i && is_shift(fap_info(fap)) && !is_of_eye(fap_info(fap)))
             shifts[*i].push_back(fap);
     return shifts;
-}
-
-Vec3 shift(const FapFrame& frame, const Fapu& fapu, const std::vector<int>& faps_of_point) {
-    Vec3 sum;
-    for (const int fap : faps_of_point) sum += along(fap_info(fap).axis, fap_info(fap).sign * amount(frame, fapu, fap));
-    return sum;
 }
 
 Vec3 moved_pupil(const FapFrame& frame, const Fapu& fapu, const EyeFaps& eye, const Vec3& pupil) {
@@ -256,11 +280,12 @@ Vec3 moved_pupil(const FapFrame& frame, const Fapu& fapu, const EyeFaps& eye, co
 // The edge goes with the body of the tongue and turns upwards about it.
 Vec3 moved_edge(const FapFrame& frame, const Fapu& fapu, const Vec3& edge, double side) {
     const auto i = find_point(fapu.points, "6.2");
-    if (!i) return edge;
+    if (!i) return edge + jaw_shift(frame, fapu);
     const Vec3 body = fapu.points[*i].position;
     constexpr int raise_tongue = 46;
     const Quaternion turn = turn_z(side * amount(frame, fapu, tongue_roll));
-    return body + rotate(turn, edge - body) + along(FapAxis::y, amount(frame, fapu, raise_tongue));
+    return body + rotate(turn, edge - body) + jaw_shift(frame, fapu) +
+           along(FapAxis::y, amount(frame, fapu, raise_tongue));
 }
 
 Vec3 moved(const FapFrame& frame, const Fapu& fapu, const FeaturePoint& point, const std::vector<int>& shifts) {
@@ -268,7 +293,8 @@ Vec3 moved(const FapFrame& frame, const Fapu& fapu, const FeaturePoint& point, c
         if (point.id == eye.pupil) return moved_pupil(frame, fapu, eye, point.position);
     if (point.id == "6.3") return moved_edge(frame, fapu, point.position, 1);
     if (point.id == "6.4") return moved_edge(frame, fapu, point.position, -1);
-    return point.position + shift(frame, fapu, shifts);
+    const Vec3 carried = lies_on_tongue(point.id) ? jaw_shift(frame, fapu) : Vec3{};
+    return point.position + carried + shift(frame, fapu, shifts);
 }
 
 Pose head_pose(const FapFrame& frame, const Fapu& fapu) {
@@ -298,10 +324,10 @@ Take to_take(const FapStream& stream, const Fapu& fapu) {
 
 namespace {
 
-// The lips' two contours, the jaw and the chin move together, whichever of them is sent.
+// The lips' two contours, the jaw, the chin and the tongue move together, whichever of them is sent.
 int part_of(const Fap& fap) {
     constexpr int inner_lips_and_jaw = 2, outer_lips = 8;
-    return fap.group == outer_lips ? inner_lips_and_jaw : fap.group;
+    return fap.group == outer_lips || is_of_tongue(fap) ? inner_lips_and_jaw : fap.group;
 }
 
 }  // namespace
@@ -310,16 +336,22 @@ std::vector<std::string> told_points(const FapStream& stream, const Fapu& fapu) 
     FapMask sent;
     for (const FapFrame& frame : stream.frames) sent |= frame.mask;
     std::bitset<11> moving;  // parts
+    bool tongue_moves = false;
     for (std::size_t i = 0; i < fap_count; ++i)
-        if (sent[i]) moving.set(static_cast<std::size_t>(part_of(faps[i])));
-    std::vector<std::string> told;
-    for (const FeaturePoint& point : fapu.points) {
-        const bool is_told = std::any_of(faps.begin(), faps.end(), [&](const Fap& fap) {
-            return fap.point == point.id && (sent[static_cast<std::size_t>(&fap - faps.data())] ||
-                                             !moving[static_cast<std::size_t>(part_of(fap))]);
+        if (sent[i]) {
+            moving.set(static_cast<std::size_t>(part_of(faps[i])));
+            tongue_moves = tongue_moves || is_of_tongue(faps[i]);
+        }
+    const auto is_told = [&](const std::string& point) {
+        if (tongue_moves && lies_on_tongue(point)) return true;
+        return std::any_of(faps.begin(), faps.end(), [&](const Fap& fap) {
+            return fap.point == point && (sent[static_cast<std::size_t>(&fap - faps.data())] ||
+                                          !moving[static_cast<std::size_t>(part_of(fap))]);
         });
-        if (is_told) told.push_back(point.id);
-    }
+    };
+    std::vector<std::string> told;
+    for (const FeaturePoint& point : fapu.points)
+        if (is_told(point.id)) told.push_back(point.id);
     return told;
 }
 

@@ -137,10 +137,15 @@ std::vector<Rule> rules_of(const FapInterpolation& fit) {
     return rules;
 }
 
+std::size_t index_of(const Fap& fap) {
+    return static_cast<std::size_t>(&fap - faps.data());
+}
+
 // What a decoder keeps from frame to frame.
 class Resolver {
 public:
-    Resolver(FapPoses& poses, const FapInterpolation& fit) : poses_(poses), rules_(rules_of(fit)) {}
+    Resolver(FapPoses& poses, const FapInterpolation& fit, const FapMask& carried)
+        : poses_(poses), rules_(rules_of(fit)), carried_(carried) {}
 
     FapFrame resolve(const FapFrame& frame) {
         if (frame.mask[0]) select_viseme(frame);
@@ -159,7 +164,7 @@ public:
         }
         interpolate(result);
         fill(result, [](const Fap& fap) { return fap.mirror; });
-        fill(result, [](const Fap& fap) { return fap.partner; });
+        fill(result, [&](const Fap& fap) { return carried_[index_of(fap)] ? 0 : fap.partner; });
         return result;
     }
 
@@ -208,6 +213,7 @@ private:
 
     FapPoses& poses_;
     std::vector<Rule> rules_;
+    FapMask carried_;
     Viseme viseme_;
     Expression expression_;
     FapFrame sent_;  // the last value of each parameter that was ever sent
@@ -215,10 +221,18 @@ private:
 
 }  // namespace
 
-FapStream resolve_faps(const FapStream& stream, FapPoses poses, const FapInterpolation& fit) {
+FapMask carried_contours(std::span<const FeaturePoint> points) {
+    FapMask carried;
+    for (const Fap& fap : faps)
+        if (fap.partner != 0 && find_point(points, fap.point) && find_point(points, fap_info(fap.partner).point))
+            carried.set(index_of(fap));
+    return carried;
+}
+
+FapStream resolve_faps(const FapStream& stream, FapPoses poses, const FapInterpolation& fit, const FapMask& carried) {
     FapStream resolved{stream.version, stream.name, stream.rate, {}};
     resolved.frames.reserve(stream.frames.size());
-    Resolver resolver(poses, fit);
+    Resolver resolver(poses, fit, carried);
     for (const FapFrame& frame : stream.frames) resolved.frames.push_back(resolver.resolve(frame));
     return resolved;
 }

@@ -104,7 +104,7 @@ TEST(Faps, WhatNoParameterMovesRests) {
     const Take take = to_take(one_frame({{3, 500}, {53, 200}}), fapu);
     EXPECT_EQ(take.points.size(), fapu.points.size());
     for (const FeaturePoint& point : fapu.points) {
-        const bool moves = point.id == "2.1" || point.id == "8.3";
+        const bool moves = point.id == "2.1" || point.id == "8.3" || point.id.starts_with("6.");  // goes with 2.1
         EXPECT_EQ(distance(place(take, point.id), point.position) > 0, moves) << point.id;
     }
     EXPECT_TRUE(take.head.empty());
@@ -161,6 +161,34 @@ TEST(Faps, TheTongueRollsBothEdgesUpAndCarriesThemWithIt) {
     EXPECT_NEAR(place(rolled, "6.3").x, -place(rolled, "6.4").x, 1e-9);
     const Take raised = to_take(one_frame({{46, 1024}}), fapu);
     EXPECT_NEAR(place(raised, "6.3").y, rest(fapu, "6.3").y + fapu.mns, 1e-9);
+}
+
+TEST(Faps, TheTongueGoesWithTheJawAndItsOwnParametersAddToThat) {
+    const Fapu fapu = measure_fapu(neutral_points());
+    const Take open = to_take(one_frame({{3, 500}, {14, 100}, {15, 50}}), fapu);
+    const Vec3 jaw = place(open, "2.1") - rest(fapu, "2.1");
+    EXPECT_LT(jaw.y, 0);
+    EXPECT_GT(jaw.z, 0);
+    EXPECT_NE(jaw.x, 0);
+    for (const char* point : {"6.1", "6.2", "6.3", "6.4"})
+        EXPECT_NEAR(distance(place(open, point), rest(fapu, point) + jaw), 0, 1e-9) << point;
+    const Take raised = to_take(one_frame({{3, 500}, {14, 100}, {15, 50}, {44, 300}, {46, 200}, {47, 30000}}), fapu);
+    EXPECT_NEAR(place(raised, "6.1").y, place(open, "6.1").y + fapu.mns * 300 / 1024, 1e-9);
+    EXPECT_NEAR(place(raised, "6.2").y, place(open, "6.2").y + fapu.mns * 200 / 1024, 1e-9);
+    EXPECT_GT(place(raised, "6.3").y, place(open, "6.3").y + fapu.mns * 200 / 1024);
+}
+
+TEST(Faps, NothingIsSaidOfTheTongueWhileTheJawIsLost) {
+    const Fapu fapu = measure_fapu(neutral_points());
+    Take take;
+    take.points = {"2.1", "6.1"};
+    take.times = {0, 0.04};
+    const Vec3 down{0, -fapu.mns / 2, 0};
+    take.samples = {rest(fapu, "2.1") + down, rest(fapu, "6.1") + down, lost_sample, rest(fapu, "6.1") + down};
+    const FapStream stream = to_faps(take, fapu);
+    EXPECT_TRUE(stream.frames.at(0).mask[fap_index(44)]);
+    EXPECT_EQ(stream.frames.at(0).value[fap_index(44)], 0);
+    EXPECT_TRUE(stream.frames.at(1).mask.none());
 }
 
 TEST(Faps, OneStreamMovesAWideFaceAndANarrowOneInProportion) {
@@ -248,9 +276,12 @@ TEST(Faps, ATakeComesBackAlongTheAxesThatParametersHave) {
                 EXPECT_LT(distance(was, is), 2 * half_unit);  // two turns and a thrust reach every place
             } else if (point.id != "6.3" && point.id != "6.4") {
                 const auto axes = reach(point.id);
-                EXPECT_NEAR(is.x, axes[0] ? was.x : point.position.x, half_unit) << point.id;
-                EXPECT_NEAR(is.y, axes[1] ? was.y : point.position.y, half_unit) << point.id;
-                EXPECT_NEAR(is.z, axes[2] ? was.z : point.position.z, half_unit) << point.id;
+                const bool is_in_jaw = point.id.starts_with("6.");
+                const Vec3 jaw = is_in_jaw ? place(again, "2.1", r) - rest(fapu, "2.1") : Vec3{};
+                const Vec3 left = point.position + jaw;  // where it lies that no parameter moves
+                EXPECT_NEAR(is.x, axes[0] ? was.x : left.x, half_unit) << point.id;
+                EXPECT_NEAR(is.y, axes[1] ? was.y : left.y, half_unit) << point.id;
+                EXPECT_NEAR(is.z, axes[2] ? was.z : left.z, half_unit) << point.id;
             }
         }
 }
@@ -310,11 +341,15 @@ TEST(Faps, AStreamTellsThePointsThatItMovesAndThoseOfPartsThatItLeavesAlone) {
     using testing::Contains, testing::Not;
     const auto jaw = told({{3, 0}});
     for (const char* point : {"2.1", "3.1", "4.3", "5.1", "9.3"}) EXPECT_THAT(jaw, Contains(point));
-    // Beside the chin the skin carries the lips, of both contours; points without a parameter it always carries.
-    for (const char* point : {"2.3", "2.10", "8.2", "8.3", "3.7", "11.4"}) EXPECT_THAT(jaw, Not(Contains(point)));
+    // Beside the chin the skin carries the lips, of both contours, and the jaw the tongue; points without a parameter
+    // are always carried.
+    for (const char* point : {"2.3", "2.10", "8.2", "8.3", "6.1", "6.4", "3.7", "11.4"})
+        EXPECT_THAT(jaw, Not(Contains(point)));
     const auto lid = told({{19, 100}, {53, 1}});
     for (const char* point : {"3.1", "8.3"}) EXPECT_THAT(lid, Contains(point));
     for (const char* point : {"3.3", "3.2", "8.4", "2.1"}) EXPECT_THAT(lid, Not(Contains(point)));
+    const auto tip = told({{3, 0}, {44, 100}});  // of a tongue that is told of in part nothing is carried
+    for (const char* point : {"6.1", "6.2", "6.3", "6.4"}) EXPECT_THAT(tip, Contains(point));
 }
 
 TEST(Faps, AMirroredPerformanceHasMirroredParameters) {

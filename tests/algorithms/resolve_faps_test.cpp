@@ -54,6 +54,23 @@ TEST(ResolveFaps, OneSideOfTheFaceServesForTheOther) {
     EXPECT_EQ(out.mask.count(), 6U);
 }
 
+TEST(ResolveFaps, AContourIsLeftToTheSkinWhereTheFaceHasThePointsOfBoth) {
+    FapStream stream;
+    stream.frames = {frame(0, {{53, 80}, {52, -100}})};
+    // 2.3 and 8.2 are moved by 5 and 52, the corners 2.4, 8.3 by 6 and 53; here 8.4 (54) has no 2.5 (7) beside it.
+    std::vector<FeaturePoint> points;
+    for (const char* id : {"2.3", "8.2", "2.4", "8.3", "8.4"}) points.emplace_back().id = id;
+    const FapMask carried = carried_contours(points);
+    FapMask expected;
+    for (const int fap : {5, 52, 6, 53, 12, 59}) expected.set(fap_index(fap));
+    EXPECT_EQ(carried, expected);
+    const FapFrame out = resolve_faps(stream, standard_poses(), {}, carried).frames.at(0);
+    EXPECT_FALSE(out.mask[fap_index(5)]);
+    EXPECT_FALSE(out.mask[fap_index(6)]);
+    for (const int fap : {53, 54, 7}) EXPECT_EQ(value(out, fap), 80) << fap;
+    EXPECT_EQ(value(out, 52), -100);
+}
+
 TEST(ResolveFaps, OneContourOfTheLipsServesForTheOtherAfterTheOtherSide) {
     const FapFrame out = resolved({frame(0, {{53, 80}, {5, -200}, {52, -100}})}).frames.at(0);
     for (const int fap : {6, 7, 53, 54}) EXPECT_EQ(value(out, fap), 80);

@@ -22,8 +22,9 @@ struct ToFapsOptions {
 ///
 /// `take`: free of head motion, which its head poses hold. Poses become FAPs 48 to 50: a turn by roll about z, then by
 /// pitch about x, then by yaw about y; how the head shifts cannot be said in FAPs. Pupils (3.5, 3.6) become turns of
-/// the eyeballs, yaw after pitch, and what lies beyond the ball becomes their thrust. The edges of the tongue
-/// (6.3, 6.4) become its roll. Pupils do not dilate in a take of points. What has no column, no neutral place or a lost
+/// the eyeballs, yaw after pitch, and what lies beyond the ball becomes their thrust. The tongue lies in the jaw: 6.1
+/// to 6.4 go by FAPs 3, 14 and 15 as 2.1 does, and their own say how they move beside it. The edges (6.3, 6.4) become
+/// its roll. Pupils do not dilate in a take of points. What has no column, no neutral place or a lost
 /// sample is not sent. Throws Error if the take has no row or the rate is negative.
 FapStream to_faps(const Take& take, const Fapu& fapu, const ToFapsOptions& options = {});
 
@@ -32,9 +33,9 @@ FapStream to_faps(const Take& take, const Fapu& fapu, const ToFapsOptions& optio
 /// stream through `resolve_faps` first to hold, fill and expand what it does not say outright.
 Take to_take(const FapStream& stream, const Fapu& fapu);
 
-/// The points of a face whose places a stream tells: those that a parameter moves which it ever sends, and those of
-/// parts of the face (the standard's groups, both contours of the lips and the jaw as one) that it leaves alone. The
-/// others, beside those that move, are for the skin to carry: see `complete`.
+/// The points of a face whose places a stream tells: those that a parameter moves which it ever sends, all of the
+/// tongue when it sends one of them, and those of parts of the face (the standard's groups; the lips, the jaw and the
+/// tongue are one) that it leaves alone. The others, beside those that move, are for the skin to carry: see `complete`.
 std::vector<std::string> told_points(const FapStream& stream, const Fapu& fapu);
 
 }  // namespace mien

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <span>
 
+#include "mien/face.hpp"
 #include "mien/fap.hpp"
 #include "mien/fap_interpolation.hpp"
 #include "mien/fat.hpp"
@@ -33,10 +35,15 @@ FapPoses standard_poses();
 ///     two rules below because its maker knew the face and the stream and they know neither; a link that wants the
 ///     value of another side or contour names that one, and what a link gives serves both rules as if it was sent;
 ///  5. the value of the same parameter on the other side of the face;
-///  6. the value of the same parameter of the other lip contour, inner or outer.
+///  6. the value of the same parameter of the other lip contour, inner or outer, but for those in `carried`.
 /// FAPs 1 and 2 that are not sent hold, too; what a table gave does not, but is asked for anew in every frame. A face
 /// without them and without a source rests: the parameter stays out. Throws Error where the table is refused.
-FapStream resolve_faps(const FapStream& stream, FapPoses poses = standard_poses(), const FapInterpolation& fit = {});
+FapStream resolve_faps(const FapStream& stream, FapPoses poses = standard_poses(), const FapInterpolation& fit = {},
+                       const FapMask& carried = {});
+
+/// The parameters of the lips that need no value from the other contour, because the face has the points of both: its
+/// skin carries the one with the other, more roundly than the same values do.
+FapMask carried_contours(std::span<const FeaturePoint> points);
 
 /// The same for a face that has a table: visemes and expressions that the table moves vertices for stay in FAPs 1 and
 /// 2, held until others are sent, and what a frame defines does not change them; the others go by `standard_poses`.
