@@ -22,40 +22,40 @@ namespace {
 struct NamedSite {
     std::string_view id, mirror, words;
     Vec3 position;
+    double mobility;
 };
 
-// The midline and the subject's left; the right mirrors it.
-constexpr std::array<NamedSite, 18> named{{
-    {"throat", "throat", "throat, under the chin where it meets the neck", {0, -2.10, -0.45}},
-    {"neck-front", "neck-front", "front of the neck", {0, -2.65, -0.80}},
-    {"forehead", "forehead", "middle of the forehead", {0, 1.00, 0.25}},
-    {"between-brows", "between-brows", "between the brows", {0, 0.42, 0.40}},
-    {"chin-groove", "chin-groove", "groove between the lower lip and the chin", {0, -1.38, 0.42}},
-    {"under-jaw-left", "under-jaw-right", "under the jaw, beside the throat", {0.50, -2.15, -0.90}},
-    {"under-chin-left", "under-chin-right", "under the chin, beside the middle", {0.40, -1.95, -0.50}},
-    {"jaw-line-left", "jaw-line-right", "jaw line below the corner of the mouth", {0.70, -1.55, -0.30}},
-    {"jaw-angle-left", "jaw-angle-right", "below the angle of the jaw", {0.75, -1.80, -1.15}},
-    {"neck-side-left", "neck-side-right", "side of the neck", {0.45, -2.45, -1.00}},
-    {"cheek-side-left", "cheek-side-right", "cheek before the ear", {0.95, -0.85, -0.55}},
-    {"nose-fold-left", "nose-fold-right", "fold from the nose to the corner of the mouth", {0.47, -0.70, 0.25}},
-    {"mouth-fold-left", "mouth-fold-right", "fold below the corner of the mouth", {0.50, -1.33, 0.20}},
-    {"lid-fold-left", "lid-fold-right", "between the brow and the upper lid", {0.38, 0.28, 0.24}},
-    {"under-eye-left", "under-eye-right", "cheek below the lower lid", {0.42, -0.32, 0.20}},
-    {"forehead-left", "forehead-right", "side of the forehead, above the brow", {0.55, 0.92, 0.12}},
-    {"temple-left", "temple-right", "temple, behind the end of the brow", {0.98, 0.30, -0.30}},
-    {"beside-nose-left", "beside-nose-right", "side of the nose below the eye", {0.28, -0.30, 0.30}},
-}};
-
-// What no expression moves: hair line, crown, ears and the root of the neck.
-constexpr std::array<Vec3, 8> still{{
-    {0, 1.5, 0},
-    {0.9, 1.2, -0.4},
-    {-0.9, 1.2, -0.4},
-    {1.15, -0.3, -1.1},
-    {-1.15, -0.3, -1.1},
-    {0, -3.2, -0.9},
-    {0.8, -2.8, -1.4},
-    {-0.8, -2.8, -1.4},
+// The midline and the subject's left; the right mirrors it. Mobility was measured on the ICT face model's expressions,
+// beside that of the standard sites.
+constexpr std::array<NamedSite, 20> named{{
+    {"throat", "throat", "throat, under the chin where it meets the neck", {0, -2.10, -0.45}, 0.34},
+    {"neck-front", "neck-front", "front of the neck", {0, -2.65, -0.80}, 0.12},
+    {"forehead", "forehead", "middle of the forehead", {0, 1.00, 0.25}, 0.19},
+    {"between-brows", "between-brows", "between the brows", {0, 0.42, 0.40}, 0.56},
+    {"chin-groove", "chin-groove", "groove between the lower lip and the chin", {0, -1.38, 0.42}, 0.76},
+    {"under-jaw-left", "under-jaw-right", "under the jaw, beside the throat", {0.50, -2.15, -0.90}, 0.20},
+    {"under-chin-left", "under-chin-right", "under the chin, beside the middle", {0.40, -1.95, -0.50}, 0.31},
+    {"jaw-line-left", "jaw-line-right", "jaw line below the corner of the mouth", {0.70, -1.55, -0.30}, 0.55},
+    {"jaw-angle-left", "jaw-angle-right", "below the angle of the jaw", {0.75, -1.80, -1.15}, 0.12},
+    {"neck-side-left", "neck-side-right", "side of the neck", {0.45, -2.45, -1.00}, 0.14},
+    {"cheek-side-left", "cheek-side-right", "cheek before the ear", {0.95, -0.85, -0.55}, 0.20},
+    {"nose-fold-left", "nose-fold-right", "fold from the nose to the corner of the mouth", {0.47, -0.70, 0.25}, 0.70},
+    {"mouth-fold-left", "mouth-fold-right", "fold below the corner of the mouth", {0.50, -1.33, 0.20}, 0.89},
+    {"lid-fold-left", "lid-fold-right", "between the brow and the upper lid", {0.38, 0.28, 0.24}, 1.09},
+    {"lid-side-left",
+     "lid-side-right",
+     "under the tail of the brow, above the outer corner of the eye",
+     {0.71, 0.30, 0.16},
+     0.71},
+    {"eye-side-left",
+     "eye-side-right",
+     "beside the outer corner of the eye, where it creases",
+     {0.85, 0.12, 0.00},
+     0.31},
+    {"under-eye-left", "under-eye-right", "cheek below the lower lid", {0.42, -0.32, 0.20}, 0.65},
+    {"forehead-left", "forehead-right", "side of the forehead, above the brow", {0.55, 0.92, 0.12}, 0.46},
+    {"temple-left", "temple-right", "temple, behind the end of the brow", {0.98, 0.30, -0.30}, 0.23},
+    {"beside-nose-left", "beside-nose-right", "side of the nose below the eye", {0.28, -0.30, 0.30}, 0.43},
 }};
 
 // The standard sites, with their motion from the known expressions.
@@ -80,26 +80,13 @@ std::vector<Site> standard_sites() {
 
 }  // namespace
 
-double generic_mobility(const Vec3& position) {
-    static const std::vector<Site> known = standard_sites();
-    double sum = 0, shares = 0;
-    const auto add = [&](const Vec3& at, double mobility) {
-        const double d = distance(at, position) + 0.02, share = 1 / (d * d * d);
-        sum += share * mobility;
-        shares += share;
-    };
-    for (const Site& site : known) add(site.position, site.mobility);
-    for (const Vec3& at : still) add(at, 0);
-    return sum / shares;
-}
-
 std::vector<Site> skin_sites() {
     std::vector<Site> sites = standard_sites();
     for (const NamedSite& site : named) {
-        sites.push_back({site.id, site.mirror, site.words, site.position, generic_mobility(site.position)});
+        sites.push_back({site.id, site.mirror, site.words, site.position, site.mobility});
         if (site.mirror == site.id) continue;
         const Vec3 other{-site.position.x, site.position.y, site.position.z};
-        sites.push_back({site.mirror, site.id, site.words, other, generic_mobility(other)});
+        sites.push_back({site.mirror, site.id, site.words, other, site.mobility});
     }
     return sites;
 }

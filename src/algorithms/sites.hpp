@@ -23,7 +23,4 @@ struct Site {
 /// The MPEG-4 points whose place on an ordinary face is known, without pupils, and the named sites beyond that list.
 std::vector<Site> skin_sites();
 
-/// How far a place of the generic face moves: from the sites around it and from what keeps still.
-double generic_mobility(const Vec3& position);
-
 }  // namespace mien

@@ -39,6 +39,18 @@ TEST_F(PriorFigures, ShapesThatWereLeftOutAreNearerThanTheSheetBringsThem) {
     EXPECT_LE(learnt.flipped, 0.001);
 }
 
+TEST_F(PriorFigures, ThirteenSuggestedPointsSaveATenth) {
+    const auto error = [&](const char* set) {
+        const Subject asked = figures::with_points_of(subject, set);
+        return figures::leave_one_out(asked,
+                                      [&](const std::vector<MorphTarget>& kept) {
+                                          return rig_prior(asked.face, {kept, {}});
+                                      })
+            .error;
+    };
+    EXPECT_LE(error("suggested"), 0.9 * error("all_skin"));
+}
+
 TEST_F(PriorFigures, MixesOfKnownShapesComeBackWithAlmostNoFlips) {
     for (const auto& [set, limit] : {std::pair{"all_skin", 0.10}, {"vicon27", 0.19}, {"dutreve21", 0.26}}) {
         const Subject asked = figures::with_points_of(subject, set);
