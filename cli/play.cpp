@@ -13,10 +13,9 @@
 #include "outputs.hpp"
 
 #include "mien/algorithms/bake_fat.hpp"
-#include "mien/algorithms/complete.hpp"
 #include "mien/algorithms/deform.hpp"
-#include "mien/algorithms/faps.hpp"
 #include "mien/algorithms/fapu.hpp"
+#include "mien/algorithms/play_faps.hpp"
 #include "mien/algorithms/resolve_faps.hpp"
 #include "mien/error.hpp"
 #include "mien/io/read.hpp"
@@ -41,13 +40,6 @@ FapInterpolation load_fit(const std::filesystem::path& file, Report& report) {
     report["fit"] = {
         {"file", file.filename().string()}, {"links", fit.links.size()}, {"parameters", interpolated_faps(fit)}};
     return fit;
-}
-
-Take told(const Take& take, const std::vector<std::string>& points) {
-    std::vector<Rename> names;
-    names.reserve(points.size());
-    for (const std::string& point : points) names.push_back({point, point});
-    return rename_points(take, names);
 }
 
 FapStream without_head_turns(FapStream stream) {
@@ -95,6 +87,14 @@ void play_table(Call& call, const Play& flags) {
         write_cache(call, flags.output, deform(fdp.fat, fdp.mesh, stream));
 }
 
+std::vector<std::string> carried_points(const Face& face, const std::vector<ToldPoint>& told) {
+    std::vector<std::string> carried;
+    for (const FeaturePoint& point : face.points)
+        if (std::none_of(told.begin(), told.end(), [&](const ToldPoint& t) { return t.id == point.id; }))
+            carried.push_back(point.id);
+    return carried;
+}
+
 // Points of which the stream says nothing are carried by the skin between the others.
 void play(Call& call, const Play& flags) {
     check_output(flags.output.output, {flags.rig, flags.faps, flags.fit}, call.flags);
@@ -105,11 +105,10 @@ void play(Call& call, const Play& flags) {
     const FapInterpolation fit = load_fit(flags.fit, call.report);
     const FapStream stream =
         resolve_faps(load_faps(flags.faps, call.report), standard_poses(), fit, carried_contours(fapu.points));
-    const std::vector<std::string> points = told_points(stream, fapu);
-    if (points.empty())
+    if (told_points(stream, fapu).empty())
         throw Error(flags.faps.string() + ": expected parameters that move a point of this rig, found none");
     const Fapu shown = flags.whole_units ? fapu : restrained(fapu);
-    const Take take = told(to_take(stream, shown), points);
+    const Take take = play_faps(face, stream, shown);
     call.report["rig"] = {{"file", flags.rig.filename().string()}, {"points", file.rig.points.size()}};
     call.report["units"] = {
         {"irisd", fapu.irisd}, {"es", fapu.es}, {"ens", fapu.ens}, {"mns", fapu.mns}, {"mw", fapu.mw}};
@@ -117,10 +116,10 @@ void play(Call& call, const Play& flags) {
     if (shown.mns < fapu.mns)
         call.report["small_mouth"] =
             fmt::format("moves by {:.2f} of MNS; --whole-units moves it by all of it", shown.mns / fapu.mns);
-    call.report["points_carried_by_the_skin"] = missing_points(face, take);
+    call.report["points_carried_by_the_skin"] = carried_points(face, told_points(stream, fapu));
     if (!take.head.empty() && !flags.output.head_motion)
         call.report["head_turns"] = "in the stream; --head-motion plays them";
-    write_performance(call, flags.output, file.mesh, file.rig, complete(face, take));
+    write_performance(call, flags.output, file.mesh, file.rig, take);
 }
 
 }  // namespace

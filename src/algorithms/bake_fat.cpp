@@ -16,9 +16,8 @@
 #include <string>
 #include <utility>
 
-#include "mien/algorithms/complete.hpp"
 #include "mien/algorithms/deform.hpp"
-#include "mien/algorithms/faps.hpp"
+#include "mien/algorithms/play_faps.hpp"
 #include "mien/error.hpp"
 
 namespace mien {
@@ -71,7 +70,7 @@ public:
                 stream.frames.push_back(frame);
             }
         }
-        sequence_ = deform(rig, mesh, complete({mesh, rig.points}, told_take(stream, fapu)));
+        sequence_ = deform(rig, mesh, play_faps({mesh, rig.points}, stream, fapu));
     }
 
     [[nodiscard]] std::vector<std::vector<Vec3f>> play(int fap) const {
@@ -81,13 +80,6 @@ public:
     }
 
 private:
-    static Take told_take(const FapStream& stream, const Fapu& fapu) {
-        std::vector<Rename> names;
-        for (const std::string& id : told_points(stream, fapu)) names.push_back({id, id});
-        if (names.empty()) throw Error("bake: expected parameters that move a point of the rig, found none");
-        return rename_points(to_take(stream, fapu), names);
-    }
-
     std::size_t vertices_;
     std::array<std::size_t, fap_count> first_row_{};
     MeshSequence sequence_;

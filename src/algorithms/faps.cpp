@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -320,39 +319,6 @@ Take to_take(const FapStream& stream, const Fapu& fapu) {
     }
     if (!head_moves) take.head.clear();
     return take;
-}
-
-namespace {
-
-// The lips' two contours, the jaw, the chin and the tongue move together, whichever of them is sent.
-int part_of(const Fap& fap) {
-    constexpr int inner_lips_and_jaw = 2, outer_lips = 8;
-    return fap.group == outer_lips || is_of_tongue(fap) ? inner_lips_and_jaw : fap.group;
-}
-
-}  // namespace
-
-std::vector<std::string> told_points(const FapStream& stream, const Fapu& fapu) {
-    FapMask sent;
-    for (const FapFrame& frame : stream.frames) sent |= frame.mask;
-    std::bitset<11> moving;  // parts
-    bool tongue_moves = false;
-    for (std::size_t i = 0; i < fap_count; ++i)
-        if (sent[i]) {
-            moving.set(static_cast<std::size_t>(part_of(faps[i])));
-            tongue_moves = tongue_moves || is_of_tongue(faps[i]);
-        }
-    const auto is_told = [&](const std::string& point) {
-        if (tongue_moves && lies_on_tongue(point)) return true;
-        return std::any_of(faps.begin(), faps.end(), [&](const Fap& fap) {
-            return fap.point == point && (sent[static_cast<std::size_t>(&fap - faps.data())] ||
-                                          !moving[static_cast<std::size_t>(part_of(fap))]);
-        });
-    };
-    std::vector<std::string> told;
-    for (const FeaturePoint& point : fapu.points)
-        if (is_told(point.id)) told.push_back(point.id);
-    return told;
 }
 
 }  // namespace mien

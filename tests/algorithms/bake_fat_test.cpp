@@ -10,10 +10,9 @@
 
 #include "refusal.hpp"
 
-#include "mien/algorithms/complete.hpp"
 #include "mien/algorithms/deform.hpp"
-#include "mien/algorithms/faps.hpp"
 #include "mien/algorithms/fapu.hpp"
+#include "mien/algorithms/play_faps.hpp"
 #include "mien/algorithms/resolve_faps.hpp"
 #include "mien/algorithms/rig_biharmonic.hpp"
 #include "mien/io/read.hpp"
@@ -286,10 +285,7 @@ void plays_like_its_rig(const Face& face, double most_mean, double most) {
     // A jaw goes straight; lids slide over an eye, which takes borders.
     EXPECT_EQ(table_of(result.fat, 3)->meshes.at(0).borders.size(), 3U);
     EXPECT_GT(table_of(result.fat, 19)->meshes.at(0).borders.size(), 3U);
-    std::vector<Rename> names;
-    for (const std::string& id : told_points(stream, fapu)) names.push_back({id, id});
-    const Take take = complete(face, rename_points(to_take(stream, fapu), names));
-    const FatError together = fat_error(result.fat, stream, deform(rig, face.mesh, take));
+    const FatError together = fat_error(result.fat, stream, deform(rig, face.mesh, play_faps(face, stream, fapu)));
     const double eyes = eye_distance(face.points);
     std::cout << "in eye distances: alone mean " << result.alone.mean / eyes << " most " << result.alone.max / eyes
               << ", together mean " << together.mean / eyes << " most " << together.max / eyes << "\n";

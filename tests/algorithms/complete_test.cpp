@@ -4,6 +4,8 @@
 #include "mien/algorithms/complete.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
 
@@ -55,6 +57,23 @@ TEST(Complete, keeps_the_driven_columns_and_the_neutral_row) {
     EXPECT_EQ(all.points.back(), "middle");
     EXPECT_EQ(row(all, 0)[4], face.points[4].position);
     EXPECT_EQ(row(all, 1)[1], row(corners_move(face), 1)[1]);
+}
+
+TEST(Complete, carries_a_driven_point_along_axes_on_which_it_does_not_move) {
+    Face face = skin();
+    Take take = corners_move(face);
+    take.points.emplace_back("middle");
+    for (std::size_t r = 0; r < 2; ++r)
+        take.samples.insert(take.samples.begin() + static_cast<std::ptrdiff_t>(5 * r + 4),
+                            face.points[4].position + static_cast<double>(r) * Vec3{3, 3, 3});
+    EXPECT_EQ(complete(face, take).samples, take.samples);
+    const Take without = complete(face, corners_move(face));  // all of it carried
+    face.points[4].moves = {true, true, false};
+    const Vec3 place = row(complete(face, take), 1)[4];
+    EXPECT_EQ(place.x, row(take, 1)[4].x);
+    EXPECT_EQ(place.y, row(take, 1)[4].y);
+    EXPECT_NEAR(place.z, row(without, 1)[4].z, 1e-6);
+    EXPECT_GT(std::abs(place.z - row(take, 1)[4].z), 1);
 }
 
 TEST(Complete, a_rig_of_all_points_then_moves_the_skin_like_a_rig_of_the_driven_ones) {

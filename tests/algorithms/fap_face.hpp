@@ -8,10 +8,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <numbers>
 #include <vector>
 
 #include "mien/face.hpp"
+#include "mien/fap.hpp"
 
 namespace mien {
 
@@ -39,6 +41,17 @@ inline std::vector<FeaturePoint> neutral_points() {
                               0});
     }
     return points;
+}
+
+/// A stream of one frame that sends some values.
+inline FapStream one_frame(std::initializer_list<std::pair<int, int>> values) {
+    FapStream stream;
+    FapFrame& frame = stream.frames.emplace_back();
+    for (const auto& [fap, value] : values) {
+        frame.mask.set(fap_index(fap));
+        frame.value[fap_index(fap)] = value;
+    }
+    return stream;
 }
 
 /// A ball of triangles.

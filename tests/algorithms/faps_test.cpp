@@ -23,16 +23,6 @@
 namespace mien {
 namespace {
 
-FapStream one_frame(std::initializer_list<std::pair<int, int>> values) {
-    FapStream stream;
-    FapFrame& frame = stream.frames.emplace_back();
-    for (const auto& [fap, value] : values) {
-        frame.mask.set(fap_index(fap));
-        frame.value[fap_index(fap)] = value;
-    }
-    return stream;
-}
-
 Vec3 place(const Take& take, std::string_view point, std::size_t r = 0) {
     return row(take, r)[find_column(take, point).value()];
 }
@@ -331,25 +321,6 @@ TEST(Faps, OneRowIsOneFrame) {
     const FapStream stream = to_faps(take, fapu);
     ASSERT_EQ(stream.frames.size(), 1U);
     EXPECT_EQ(stream.frames[0].value[2], 77);
-}
-
-TEST(Faps, AStreamTellsThePointsThatItMovesAndThoseOfPartsThatItLeavesAlone) {
-    const Fapu fapu = measure_fapu(neutral_points());
-    const auto told = [&](std::initializer_list<std::pair<int, int>> values) {
-        return told_points(one_frame(values), fapu);
-    };
-    using testing::Contains, testing::Not;
-    const auto jaw = told({{3, 0}});
-    for (const char* point : {"2.1", "3.1", "4.3", "5.1", "9.3"}) EXPECT_THAT(jaw, Contains(point));
-    // Beside the chin the skin carries the lips, of both contours, and the jaw the tongue; points without a parameter
-    // are always carried.
-    for (const char* point : {"2.3", "2.10", "8.2", "8.3", "6.1", "6.4", "3.7", "11.4"})
-        EXPECT_THAT(jaw, Not(Contains(point)));
-    const auto lid = told({{19, 100}, {53, 1}});
-    for (const char* point : {"3.1", "8.3"}) EXPECT_THAT(lid, Contains(point));
-    for (const char* point : {"3.3", "3.2", "8.4", "2.1"}) EXPECT_THAT(lid, Not(Contains(point)));
-    const auto tip = told({{3, 0}, {44, 100}});  // of a tongue that is told of in part nothing is carried
-    for (const char* point : {"6.1", "6.2", "6.3", "6.4"}) EXPECT_THAT(tip, Contains(point));
 }
 
 TEST(Faps, AMirroredPerformanceHasMirroredParameters) {

@@ -18,7 +18,8 @@ namespace mien {
 /// points needs to give the same deformation as a rig of the driven ones. Points on teeth and tongue follow the jaw,
 /// points on eyeballs keep still.
 ///
-/// `take`: retargeted to this face. The columns it has stay as they are; the new ones follow, in the face's order.
+/// `take`: retargeted to this face. The columns it has stay as they are, but along axes on which their point does not
+/// move: there the skin carries it, too. The new ones follow, in the face's order.
 /// Throws Error if the take drives no point of the face.
 Take complete(const Face& face, const Take& take);
 

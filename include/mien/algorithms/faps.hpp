@@ -3,9 +3,6 @@
 
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "mien/fap.hpp"
 #include "mien/take.hpp"
 
@@ -32,10 +29,5 @@ FapStream to_faps(const Take& take, const Fapu& fapu, const ToFapsOptions& optio
 /// within half a unit. One row per frame; every point of the face has a column, and what is not sent rests. Pass the
 /// stream through `resolve_faps` first to hold, fill and expand what it does not say outright.
 Take to_take(const FapStream& stream, const Fapu& fapu);
-
-/// The points of a face whose places a stream tells: those that a parameter moves which it ever sends, all of the
-/// tongue when it sends one of them, and those of parts of the face (the standard's groups; the lips, the jaw and the
-/// tongue are one) that it leaves alone. The others, beside those that move, are for the skin to carry: see `complete`.
-std::vector<std::string> told_points(const FapStream& stream, const Fapu& fapu);
 
 }  // namespace mien
