@@ -9,12 +9,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithms/island.hpp"
 #include "algorithms/laplacian.hpp"
 #include "algorithms/nearest_places.hpp"
 #include "algorithms/pockets.hpp"
 #include "algorithms/sparse_solve.hpp"
+
+#include "mien/algorithms/surface_distance.hpp"
 
 namespace mien {
 
@@ -24,6 +27,7 @@ constexpr double softness = 0.1;  // in eye distances, as below
 constexpr double flesh = 0.4;
 constexpr double straight = 0.7;    // cosine to the normals: the other lip is not through the flesh
 constexpr std::size_t tried = 256;  // places of the skin for each of a wall
+constexpr double looked_at = 0.5;   // ways along the surface from a wall to the skin round the rim
 
 struct Skin {
     std::vector<std::uint32_t> places;
@@ -42,6 +46,26 @@ Skin open_skin(const Face& face, const Weld& weld, const std::vector<bool>& solv
     return skin;
 }
 
+// Two lips that touch may seem to be the two sides of one: near the rim, the way to the other side of the flesh along
+// the surface is not much longer than out of the pocket and as far back again.
+class WaysRound {
+public:
+    WaysRound(const EdgeGraph& graph, const std::vector<bool>& marked, std::uint32_t wall, double scale)
+        : ways_(surface_distances(graph, wall, looked_at * scale)), limit_(looked_at * scale) {
+        for (std::uint32_t p = 0; p < ways_.size(); ++p)
+            if (!marked[p]) out_ = std::min(out_, ways_[p]);
+    }
+    [[nodiscard]] bool is_round_the_rim(std::uint32_t place, double thick) const {
+        const double longest = 2 * out_ + 3 * thick;
+        return longest > limit_ || ways_[place] <= longest;
+    }
+
+private:
+    std::vector<double> ways_;
+    double limit_;
+    double out_ = std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
 Pockets line_pockets(const Face& face, const Weld& weld, const std::vector<bool>& solved,
@@ -51,15 +75,18 @@ Pockets line_pockets(const Face& face, const Weld& weld, const std::vector<bool>
         if (length(n) > 0) n = n / length(n);
     const Skin skin = open_skin(face, weld, solved, marked, normals);
     const NearestPlaces nearest(skin.positions);
+    const EdgeGraph graph = edge_graph(face.mesh, weld);
     Pockets pockets{{}, {}, {}, softness * scale};
     for (std::uint32_t p = 0; p < marked.size(); ++p) {
         if (!marked[p]) continue;
         const Vec3 at = position(face.mesh, weld, p);
+        const WaysRound ways(graph, marked, p, scale);
         const std::vector<std::uint32_t> near = nearest.nearest(at, tried);
         const auto found = std::find_if(near.begin(), near.end(), [&](std::uint32_t i) {
             const Vec3 way = skin.positions[i] - at;
             const double off = straight * length(way);
-            return dot(way, normals[p]) < -off && dot(way, skin.normals[i]) > off;
+            return dot(way, normals[p]) < -off && dot(way, skin.normals[i]) > off &&
+                   ways.is_round_the_rim(skin.places[i], length(way));
         });
         pockets.places.push_back(p);
         pockets.outside.push_back(found == near.end() ? p : skin.places[*found]);

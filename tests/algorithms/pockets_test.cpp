@@ -4,13 +4,19 @@
 #include "algorithms/pockets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "algorithms/fill_pockets.hpp"
+#include "rig_figures.hpp"
 #include "shapes.hpp"
 
+#include "mien/algorithms/attach.hpp"
 #include "mien/algorithms/rig_biharmonic.hpp"
+#include "mien/algorithms/surface_distance.hpp"
 
 namespace mien {
 namespace {
@@ -142,6 +148,42 @@ TEST(Pockets, HaveTheSkinOutsideBeyondTheFlesh) {
         EXPECT_GT(length(skin), length(wall));
         EXPECT_NEAR(bag.shares[i], std::exp(-std::pow(distance(wall, skin) / 0.4, 2)), 1e-12);
     }
+}
+
+// Of a head whose lips touch: how much nearer a place is to the inner edge of the upper lip than to that of the lower,
+// along the surface.
+std::vector<double> towards_upper_lip(const Face& face, const Weld& joined) {
+    const EdgeGraph graph = edge_graph(face.mesh, joined);
+    std::vector<double> ways[2];
+    for (int lip = 0; lip < 2; ++lip) {
+        ways[lip].assign(joined.vertex.size(), std::numeric_limits<double>::infinity());
+        for (const char* id : lip == 0 ? std::array{"2.2", "2.6", "2.7"} : std::array{"2.3", "2.8", "2.9"}) {
+            const FeaturePoint& point = face.points[find_point(face.points, id).value()];
+            const auto way = surface_distances(graph, joined.place[point.vertex]);
+            for (std::size_t p = 0; p < way.size(); ++p) ways[lip][p] = std::min(ways[lip][p], way[p]);
+        }
+    }
+    std::vector<double> nearer(joined.vertex.size());
+    for (std::size_t p = 0; p < nearer.size(); ++p) nearer[p] = ways[1][p] - ways[0][p];
+    return nearer;
+}
+
+TEST(Pockets, BehindOneLipDoNotFollowTheOtherThatTouchesIt) {
+    if (!std::filesystem::exists(figures::folder("mh-caucasian"))) GTEST_SKIP() << "no MakeHuman head";
+    const Face face = figures::read_pocket_subject().face;
+    const Weld joined = weld(face.mesh);
+    const double eyes = eye_distance(face.points);
+    const std::vector<bool> solved = solved_places(face, joined);
+    const Pockets bag = line_pockets(face, joined, solved, closed_pockets(face, joined, solved), eyes);
+    const std::vector<double> upper = towards_upper_lip(face, joined);
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < bag.places.size(); ++i) {
+        const double wall = upper[bag.places[i]], skin = upper[bag.outside[i]];
+        if (!(std::abs(wall) > 0.2 * eyes) || !(std::abs(skin) > 0.2 * eyes)) continue;
+        ++compared;
+        EXPECT_EQ(wall > 0, skin > 0) << joined.vertex[bag.places[i]];
+    }
+    EXPECT_GT(compared, 50U);
 }
 
 // Deep in a bag the walls go with the skin on the other side of the flesh, the less the thicker that is, whatever the
