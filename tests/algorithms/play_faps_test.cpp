@@ -30,6 +30,7 @@ std::vector<ToldPoint> told(std::initializer_list<std::pair<int, int>> values) {
 
 std::vector<std::string> ids(const std::vector<ToldPoint>& points) {
     std::vector<std::string> names;
+    names.reserve(points.size());
     for (const ToldPoint& point : points) names.push_back(point.id);
     return names;
 }
