@@ -126,6 +126,7 @@ std::vector<RigidPart> rigid_parts(const UprightSequence& upright, const Weld& w
         std::sort(vertices.begin(), vertices.end());
     }
     std::vector<RigidPart> parts;
+    parts.reserve(kept.size());
     for (Candidate& candidate : kept) parts.push_back(std::move(candidate.part));
     return parts;
 }
@@ -224,6 +225,7 @@ PartFit fit_part(const RigidPart& part, const Mesh& mesh, const FapColumns& colu
         }
         const Pose made{turn, fit.centre - rotate(turn, fit.centre) + shift};
         std::vector<Vec3> now;
+        now.reserve(rest.size());
         for (const Vec3& p : rest) now.push_back(apply(part.poses[static_cast<std::size_t>(r)], p));
         const double off = off_by(made, rest, now);
         squares += off * off / static_cast<double>(values.rows());

@@ -231,6 +231,7 @@ Neutral remedied_neutral(const MeshSequence& sequence, std::span<const FeaturePo
     const Quaternion turn = without_small_nod(face_turn(there).value_or(Quaternion{}));
     if (!turns(turn)) return neutral;
     std::vector<Vec3> places;
+    places.reserve(there.size());
     for (const FeaturePoint& point : there) places.push_back(point.position);
     const Vec3 middle = centre(places);
     neutral.source = {turn, middle - rotate(turn, middle)};
