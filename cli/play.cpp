@@ -105,7 +105,8 @@ void play(Call& call, const Play& flags) {
     const FapInterpolation fit = load_fit(flags.fit, call.report);
     const FapStream stream =
         resolve_faps(load_faps(flags.faps, call.report), standard_poses(), fit, carried_contours(fapu.points));
-    if (told_points(stream, fapu).empty())
+    const std::vector<ToldPoint> told = told_points(stream, fapu);
+    if (told.empty())
         throw Error(flags.faps.string() + ": expected parameters that move a point of this rig, found none");
     const Fapu shown = flags.whole_units ? fapu : restrained(fapu);
     const Take take = play_faps(face, stream, shown);
@@ -116,7 +117,7 @@ void play(Call& call, const Play& flags) {
     if (shown.mns < fapu.mns)
         call.report["small_mouth"] =
             fmt::format("moves by {:.2f} of MNS; --whole-units moves it by all of it", shown.mns / fapu.mns);
-    call.report["points_carried_by_the_skin"] = carried_points(face, told_points(stream, fapu));
+    call.report["points_carried_by_the_skin"] = carried_points(face, told);
     if (!take.head.empty() && !flags.output.head_motion)
         call.report["head_turns"] = "in the stream; --head-motion plays them";
     write_performance(call, flags.output, file.mesh, file.rig, take);

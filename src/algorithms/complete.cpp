@@ -3,7 +3,7 @@
 
 #include "mien/algorithms/complete.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -37,23 +37,35 @@ std::vector<std::string> missing_points(const Face& face, const Take& take) {
 
 namespace {
 
-bool moves_freely(const FeaturePoint& point) {
-    return point.moves == Axes{};
+// A column of a whole take that the skin carries, along the axes on which `point` does not move.
+struct CarriedColumn {
+    std::size_t column;
+    FeaturePoint point;
+};
+
+std::vector<CarriedColumn> carried_columns(const Face& face, const Take& take) {
+    std::vector<CarriedColumn> carried;
+    std::size_t added = take.points.size();
+    for (const FeaturePoint& point : face.points) {
+        const auto column = find_column(take, point.id);
+        if (column && point.moves == Axes{}) continue;
+        carried.push_back({column ? *column : added++, point});
+        if (!column) carried.back().point.moves = {false, false, false};
+    }
+    return carried;
 }
 
-// The place that the take has for a point, but along the axes on which it is carried.
-Vec3 carried(const FeaturePoint& point, Vec3 sample, const Vec3& place) {
-    if (!point.moves.x) sample.x = place.x;
-    if (!point.moves.y) sample.y = place.y;
-    if (!point.moves.z) sample.z = place.z;
-    return sample;
+void carry(Vec3& sample, const Axes& moves, const Vec3& place) {
+    if (!moves.x) sample.x = place.x;
+    if (!moves.y) sample.y = place.y;
+    if (!moves.z) sample.z = place.z;
 }
 
 }  // namespace
 
 Take complete(const Face& face, const Take& take) {
-    const std::vector<std::string> missing = missing_points(face, take);
-    if (missing.empty() && std::all_of(face.points.begin(), face.points.end(), moves_freely)) return take;
+    const std::vector<CarriedColumn> carried = carried_columns(face, take);
+    if (carried.empty()) return take;
     const Face driven = with_points(face, take.points);
     if (driven.points.empty()) throw Error("complete: the take drives none of the face's feature points");
     BiharmonicOptions every_influence;
@@ -62,23 +74,18 @@ Take complete(const Face& face, const Take& take) {
     const TakeBinding binding = bind_take(carrier, take);
 
     Take result = take;
+    const std::vector<std::string> missing = missing_points(face, take);
     result.points.insert(result.points.end(), missing.begin(), missing.end());
     result.samples.clear();
     std::vector<Vec3f> moved(carrier.points.size());
-    const auto place = [&](const FeaturePoint& point) {
-        return point.position + displacement_at(carrier, point.vertex, moved);
-    };
     for (std::size_t r = 0; r < row_count(take); ++r) {
         displacements(carrier, binding, row(take, r), moved);
         const std::size_t first = result.samples.size();
         result.samples.insert(result.samples.end(), row(take, r).begin(), row(take, r).end());
-        for (const FeaturePoint& point : driven.points) {
-            if (moves_freely(point)) continue;
-            Vec3& sample = result.samples[first + *find_column(take, point.id)];
-            sample = carried(point, sample, place(point));
-        }
-        for (const std::string& id : missing)
-            result.samples.push_back(place(face.points[*find_point(face.points, id)]));
+        result.samples.resize(first + result.points.size());
+        for (const auto& [column, point] : carried)
+            carry(result.samples[first + column], point.moves,
+                  point.position + displacement_at(carrier, point.vertex, moved));
     }
     return result;
 }

@@ -41,21 +41,12 @@ std::vector<Vec3> seen_from(const Vec3& centre, std::span<const Vec3f> positions
     return result;
 }
 
-// The eye that is nearer: that of the larger x is the left one.
-double middle_of_eyes(std::span<const MovingEyeball> eyeballs, std::span<const FeaturePoint> points) {
+// Of two eyes that of the larger x than this is the left one.
+double middle_between(std::span<const MovingEyeball> eyeballs, std::span<const FeaturePoint> points) {
+    if (const auto middle = middle_of_eyes(points)) return middle->x;
     double sum = 0;
-    std::size_t count = 0;
-    for (const FeaturePoint& point : points)
-        if (point.id.starts_with("3.")) {
-            sum += point.position.x;
-            ++count;
-        }
-    if (count == 0)
-        for (const MovingEyeball& eyeball : eyeballs) {
-            sum += eyeball.centre.x;
-            ++count;
-        }
-    return count > 0 ? sum / static_cast<double>(count) : 0;
+    for (const MovingEyeball& eyeball : eyeballs) sum += eyeball.centre.x;
+    return eyeballs.empty() ? 0 : sum / static_cast<double>(eyeballs.size());
 }
 
 // Keeps the poses of the row; false where the ball did not keep its shape.
@@ -94,7 +85,7 @@ std::vector<MovingEyeball> moving_eyeballs(const UprightSequence& upright) {
         for (std::size_t e = 0; e < eyeballs.size(); ++e)
             if (!add_row(eyeballs[e], rest[e], row, radii[e])) round[e] = false;
     }
-    const double middle = middle_of_eyes(eyeballs, upright.points);
+    const double middle = middle_between(eyeballs, upright.points);
     std::vector<MovingEyeball> kept;
     for (std::size_t e = 0; e < eyeballs.size(); ++e) {
         const bool left = eyeballs[e].centre.x > middle;

@@ -183,4 +183,15 @@ std::vector<EyeballIslands> find_eyeballs(const Face& face, const Weld& weld, st
     return eyeballs;
 }
 
+std::optional<Vec3> middle_of_eyes(std::span<const FeaturePoint> points) {
+    Vec3 sum;
+    std::size_t count = 0;
+    for (const FeaturePoint& point : points)
+        if (point.id.starts_with("3.")) {
+            sum += point.position;
+            ++count;
+        }
+    return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
+}
+
 }  // namespace mien

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,5 +30,8 @@ struct EyeballIslands {
 
 /// Islands that are nearly spherical, of an eye's size and at an eye, with no feature point on them but 3.5 or 3.6.
 std::vector<EyeballIslands> find_eyeballs(const Face& face, const Weld& weld, std::span<const Island> islands);
+
+/// The mean of the feature points at the eyes (3.x); nothing where there is none.
+std::optional<Vec3> middle_of_eyes(std::span<const FeaturePoint> points);
 
 }  // namespace mien

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "algorithms/island.hpp"
 #include "algorithms/laplacian.hpp"
@@ -48,6 +49,10 @@ Skin open_skin(const Face& face, const Weld& weld, const std::vector<bool>& solv
 
 // Two lips that touch may seem to be the two sides of one: near the rim, the way to the other side of the flesh along
 // the surface is not much longer than out of the pocket and as far back again.
+double longest_way(double out, double thick) {
+    return 2 * out + 3 * thick;
+}
+
 class WaysRound {
 public:
     WaysRound(const EdgeGraph& graph, const std::vector<bool>& marked, std::uint32_t wall, double scale)
@@ -56,7 +61,7 @@ public:
             if (!marked[p]) out_ = std::min(out_, ways_[p]);
     }
     [[nodiscard]] bool is_round_the_rim(std::uint32_t place, double thick) const {
-        const double longest = 2 * out_ + 3 * thick;
+        const double longest = longest_way(out_, thick);
         return longest > limit_ || ways_[place] <= longest;
     }
 
@@ -80,13 +85,16 @@ Pockets line_pockets(const Face& face, const Weld& weld, const std::vector<bool>
     for (std::uint32_t p = 0; p < marked.size(); ++p) {
         if (!marked[p]) continue;
         const Vec3 at = position(face.mesh, weld, p);
-        const WaysRound ways(graph, marked, p, scale);
         const std::vector<std::uint32_t> near = nearest.nearest(at, tried);
+        std::optional<WaysRound> ways;  // only for walls that may be near the rim
         const auto found = std::find_if(near.begin(), near.end(), [&](std::uint32_t i) {
             const Vec3 way = skin.positions[i] - at;
             const double off = straight * length(way);
-            return dot(way, normals[p]) < -off && dot(way, skin.normals[i]) > off &&
-                   ways.is_round_the_rim(skin.places[i], length(way));
+            if (!(dot(way, normals[p]) < -off) || !(dot(way, skin.normals[i]) > off)) return false;
+            const double least_out = distance(skin.positions[near.front()], at);
+            if (longest_way(least_out, length(way)) > looked_at * scale) return true;
+            if (!ways) ways.emplace(graph, marked, p, scale);
+            return ways->is_round_the_rim(skin.places[i], length(way));
         });
         pockets.places.push_back(p);
         pockets.outside.push_back(found == near.end() ? p : skin.places[*found]);

@@ -3,8 +3,6 @@
 
 #include "mien/algorithms/play_faps.hpp"
 
-#include <algorithm>
-#include <array>
 #include <bitset>
 #include <optional>
 
@@ -19,8 +17,8 @@ namespace {
 constexpr int jaw_and_lips = 2, tongue = 6, outer_lips = 8;  // groups
 
 // The lips' two contours, the jaw, the chin and the tongue move together, whichever of them is sent.
-int part_of(const Fap& fap) {
-    return fap.group == outer_lips || fap.group == tongue ? jaw_and_lips : fap.group;
+std::size_t part_of(const Fap& fap) {
+    return static_cast<std::size_t>(fap.group == outer_lips || fap.group == tongue ? jaw_and_lips : fap.group);
 }
 
 void set(Axes& axes, FapAxis axis) {
@@ -38,15 +36,14 @@ struct Sent {
 
     explicit Sent(const FapStream& stream) {
         for (const FapFrame& frame : stream.frames) faps |= frame.mask;
-        for (const Fap& fap : mien::faps)
-            if (has(fap)) {
-                parts.set(static_cast<std::size_t>(part_of(fap)));
-                of_tongue = of_tongue || fap.group == tongue;
+        for (std::size_t i = 0; i < fap_count; ++i)
+            if (faps[i]) {
+                parts.set(part_of(mien::faps[i]));
+                of_tongue = of_tongue || mien::faps[i].group == tongue;
             }
         for (const int fap : {3, 14, 15, 16, 17})
             if (faps[fap_index(fap)]) set(carrying, fap_info(fap).axis);
     }
-    [[nodiscard]] bool has(const Fap& fap) const { return faps[static_cast<std::size_t>(&fap - mien::faps.data())]; }
 };
 
 // The axes along which the place of a point is told, if it is told at all.
@@ -54,11 +51,11 @@ std::optional<Axes> told_axes(const Sent& sent, const std::string& point) {
     if (point.starts_with("6.") && sent.of_tongue) return Axes{};
     bool is_told = false, is_of_mouth = false;
     Axes told{false, false, false};
-    for (const Fap& fap : faps) {
-        if (fap.point != point) continue;
-        is_told = is_told || sent.has(fap) || !sent.parts[static_cast<std::size_t>(part_of(fap))];
-        is_of_mouth = is_of_mouth || part_of(fap) == jaw_and_lips;
-        if (sent.has(fap)) set(told, fap.axis);
+    for (std::size_t i = 0; i < fap_count; ++i) {
+        if (faps[i].point != point) continue;
+        is_told = is_told || sent.faps[i] || !sent.parts[part_of(faps[i])];
+        is_of_mouth = is_of_mouth || part_of(faps[i]) == jaw_and_lips;
+        if (sent.faps[i]) set(told, faps[i].axis);
     }
     if (!is_told) return std::nullopt;
     if (!is_of_mouth) return Axes{};

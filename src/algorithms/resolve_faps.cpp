@@ -137,10 +137,6 @@ std::vector<Rule> rules_of(const FapInterpolation& fit) {
     return rules;
 }
 
-std::size_t index_of(const Fap& fap) {
-    return static_cast<std::size_t>(&fap - faps.data());
-}
-
 // What a decoder keeps from frame to frame.
 class Resolver {
 public:
@@ -163,8 +159,8 @@ public:
                 result.value[i] = asked ? static_cast<std::int32_t>(std::lround(blend.value[i])) : sent_.value[i];
         }
         interpolate(result);
-        fill(result, [](const Fap& fap) { return fap.mirror; });
-        fill(result, [&](const Fap& fap) { return carried_[index_of(fap)] ? 0 : fap.partner; });
+        fill(result, [](std::size_t i) { return faps[i].mirror; });
+        fill(result, [&](std::size_t i) { return carried_[i] ? 0 : faps[i].partner; });
         return result;
     }
 
@@ -204,7 +200,7 @@ private:
     static void fill(FapFrame& frame, const Source& source) {
         const FapFrame known = frame;
         for (std::size_t i = 2; i < fap_count; ++i) {
-            const int from = source(faps[i]);
+            const int from = source(i);
             if (known.mask[i] || from == 0 || !known.mask[fap_index(from)]) continue;
             frame.mask.set(i);
             frame.value[i] = known.value[fap_index(from)];
@@ -223,9 +219,10 @@ private:
 
 FapMask carried_contours(std::span<const FeaturePoint> points) {
     FapMask carried;
-    for (const Fap& fap : faps)
-        if (fap.partner != 0 && find_point(points, fap.point) && find_point(points, fap_info(fap.partner).point))
-            carried.set(index_of(fap));
+    for (std::size_t i = 0; i < fap_count; ++i)
+        if (faps[i].partner != 0 && find_point(points, faps[i].point) &&
+            find_point(points, fap_info(faps[i].partner).point))
+            carried.set(i);
     return carried;
 }
 

@@ -14,9 +14,11 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "algorithms/eyeballs.hpp"
 #include "algorithms/head.hpp"
 #include "algorithms/rotation.hpp"
 
@@ -111,17 +113,11 @@ std::vector<T> evenly(std::span<const T> all, std::size_t most) {
 
 // The vertices above the eyes, or all where that leaves too few to be a skull.
 std::vector<std::uint32_t> above_the_eyes(std::span<const Vec3f> rest, std::span<const FeaturePoint> points) {
-    double height = 0;
-    std::size_t eyes = 0;
-    for (const FeaturePoint& point : points)
-        if (point.id.starts_with("3.")) {
-            height += point.position.y;
-            ++eyes;
-        }
+    const std::optional<Vec3> eyes = middle_of_eyes(points);
     std::vector<std::uint32_t> all, above;
     for (std::uint32_t v = 0; v < rest.size(); ++v) {
         all.push_back(v);
-        if (eyes > 0 && rest[v].y > height / static_cast<double>(eyes)) above.push_back(v);
+        if (eyes && rest[v].y > eyes->y) above.push_back(v);
     }
     constexpr std::size_t few = 10;
     return above.size() < few ? all : above;
